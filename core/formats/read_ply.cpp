@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec4.hpp>
+
 #include "core/formats/ply_header.h"
 #include "core/formats/readers.h"
 #include "core/formats/soup_builder.h"
