@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "core/scene/mesh.h"
@@ -11,6 +12,8 @@ namespace copeel {
 
 // Throws Error{Input} with one line naming file, line (or byte) and cause.
 Mesh readMesh(const std::string& path);
+// The same of bytes in memory; the name is for messages.
+Mesh readMeshFromMemory(std::span<const char> bytes, const std::string& name);
 
 // What is notable about a mesh, found and reported, never repaired. Counts are exact.
 struct MeshStatus {

@@ -1,0 +1,37 @@
+// Opens a file, lets the content decide its format, and hands it to the format's reader.
+#include "core/formats/read_mesh.h"
+
+#include <new>
+
+#include "core/formats/readers.h"
+
+namespace copeel {
+namespace {
+
+Mesh readAny(const Source& source) {
+  if (source.size() == 0) source.fail("the file is empty");
+  // Text in UTF-8 may begin with a byte order mark.
+  const std::string_view bytes(source.data(), source.size());
+  if (bytes.starts_with("\xef\xbb\xbf")) return readAny(Source(std::span(bytes).subspan(3), source.name()));
+  if (looksLikePly(source)) return readPly(source);
+  if (looksLikeStl(source)) return readStl(source);
+  if (looksLikeOff(source)) return readOff(source);
+  if (looksLikeObj(source)) return readObj(source);
+  source.fail("not a mesh in OBJ, OFF, PLY or STL form, or a truncated binary STL ({} bytes)", source.size());
+}
+
+}  // namespace
+
+Mesh readMesh(const std::string& path) {
+  // A file that does not fit is the machine's limit, not a fault of the file.
+  try {
+    const InputFile file(path);
+    return readAny(file.source());
+  } catch (const std::bad_alloc&) {
+    failMachine("{}: not enough memory", path);
+  }
+}
+
+Mesh readMeshFromMemory(std::span<const char> bytes, const std::string& name) { return readAny(Source(bytes, name)); }
+
+}  // namespace copeel
