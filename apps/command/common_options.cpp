@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <sys/resource.h>
 
+#include "apps/command/outputs.h"
 #include "apps/command/parse_values.h"
 #include "core/error.h"
 
@@ -101,10 +102,7 @@ std::string pictureFile(const CommonOptions& options, const std::string& input) 
   if (options.output.empty()) return fs::path(input).filename().replace_extension(".png").string();
   std::string ending = fs::path(options.output).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  std::error_code ignored;
-  const fs::file_status status = fs::status(options.output, ignored);
-  const bool isDevice = options.output == "-" || (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status));
-  if (ending != ".png" && !isDevice) failUsage("-o takes the name of a .png, not {}", options.output);
+  if (ending != ".png" && !isStream(options.output)) failUsage("-o takes the name of a .png, not {}", options.output);
   return options.output;
 }
 

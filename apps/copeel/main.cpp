@@ -1,6 +1,7 @@
 // The one program: it names the sub-commands and turns what they throw into one line and an exit code.
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <new>
@@ -11,10 +12,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "apps/command/interrupts.h"
 #include "apps/copeel/methods_command.h"
 #include "apps/csg/command.h"
 #include "core/error.h"
+#include "core/output_file.h"
 
 namespace {
 
@@ -51,10 +52,13 @@ int finish() {
 }
 
 int run(int argc, char** argv) {
-  CLI::App program{"Pictures of what overlaps: CSG models whose coincident faces are right."};
+  CLI::App program{"Pictures of what overlaps: CSG models whose coincident faces are right.", "copeel"};
   program.set_version_flag("--version", "copeel " COPEEL_VERSION);
   program.require_subcommand(1);
   addCommands(program);
+  if (argc > 1 && argv[1][0] != '-' && !program.get_subcommand_no_throw(argv[1])) {
+    return fail(ExitCode::Usage, fmt::format("no command '{}' (see copeel --help)", argv[1]));
+  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {   // --help and --version
@@ -68,7 +72,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  copeel::installInterrupts();
+  copeel::removeTemporariesOnSignal();
+  std::signal(SIGPIPE, SIG_IGN);   // a closed pipe is an error of the write, and reported as one
   try {
     return run(argc, argv);
   } catch (const copeel::Error& error) {

@@ -17,6 +17,7 @@
 #include "apps/csg/command_options.h"
 #include "core/error.h"
 #include "core/image/write_image.h"
+#include "core/output_file.h"
 
 namespace copeel::csg {
 namespace {
@@ -67,7 +68,6 @@ Model readMeshFiles(const CommandOptions& options, const std::vector<MeshArgumen
 Model readModel(const CommandOptions& options, InputKind kind, const std::vector<MeshArgument>& files) {
   ReadOptions read;
   read.definitions = options.definitions;
-  for (const MeshArgument& file : files) checkReadable(file.path);
   switch (kind) {
     case InputKind::Scad: return readScad(files[0].path, read);
     case InputKind::Csg: return readCsg(files[0].path, read);
@@ -114,14 +114,14 @@ void run(const CommandOptions& options) {
 
   Drawing drawing;
   const CommonOptions& common = options.common;
-  const auto text = [&drawing](const std::string& path) { writeText(path, toJson(drawing.stats) + "\n"); };
-  Outputs outputs;
-  outputs.add("-o", pictureFile(common, files[0].path), [&](const std::string& path) { writePng(path, drawing.frame.color); });
+  Outputs outputs;   // the picture last: once it is there, so is everything else
   outputs.add("--depth", common.depthFile, [&](const std::string& path) { writePfm(path, drawing.frame.depth); });
   outputs.add("--ids", common.idsFile, [&](const std::string& path) { writePgm(path, drawing.frame.ids); });
-  outputs.add("--stats", common.statsFile, text);
+  outputs.add("--stats", common.statsFile, [&](const std::string& path) { writeFile(path, toJson(drawing.stats)); });
+  outputs.add("-o", pictureFile(common, files[0].path), [&](const std::string& path) { writePng(path, drawing.frame.color); });
   std::vector<std::string> inputs;
   for (const MeshArgument& file : files) inputs.push_back(file.path);
+  for (const std::string& input : inputs) checkReadable(input);
   outputs.check(inputs);
 
   auto progress = std::make_unique<Progress>(!common.quiet);
@@ -138,7 +138,7 @@ void run(const CommandOptions& options) {
   drawing.stats.loadMs = loadMs;
   drawing.stats.memoryBytes = peakMemoryBytes();
   drawing.stats.totalMs = millisecondsSince(start);
-  outputs.commit();
+  outputs.write();
 }
 
 }  // namespace
