@@ -56,7 +56,8 @@ int run(int argc, char** argv) {
   program.set_version_flag("--version", "copeel " COPEEL_VERSION);
   program.require_subcommand(1);
   addCommands(program);
-  if (argc > 1 && argv[1][0] != '-' && !program.get_subcommand_no_throw(argv[1])) {
+  const auto named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
+  if (argc > 1 && argv[1][0] != '-' && program.get_subcommands(named).empty()) {
     return fail(ExitCode::Usage, fmt::format("no command '{}' (see copeel --help)", argv[1]));
   }
   try {

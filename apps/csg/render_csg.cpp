@@ -197,7 +197,7 @@ class FrameSink : public PixelSink {
 
 Renderer::Renderer(const Model& model, const RenderOptions& options) : state_(std::make_unique<State>(model, options)) {
   if (!findMethod(options.method)) failUsage("--method {}: there is no such method", options.method);
-  state_->arena = std::make_unique<tbb::task_arena>(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+  state_->arena = std::make_unique<tbb::task_arena>(options.threads > 0 ? options.threads : int{tbb::task_arena::automatic});
   state_->arena->execute([&] { state_->prepare(); });
 }
 
