@@ -33,10 +33,14 @@ HWY_INLINE HWY_ATTR std::uint64_t blockCoverage(const TriangleSetup& t, int x, i
     if (e[i] + (across > 0 ? across : 0) + (down > 0 ? down : 0) < 0) return 0;
     full &= e[i] + (across < 0 ? across : 0) + (down < 0 ? down : 0) >= 0;
   }
-  if (full) return ~std::uint64_t{0};
+  // Edges that the triangle's bounds make redundant were dropped, so the bounds count.
+  const int x0 = t.x0 > x ? t.x0 - x : 0, x1 = t.x1 - x < kBlockSize - 1 ? t.x1 - x : kBlockSize - 1;
+  const int y0 = t.y0 > y ? t.y0 - y : 0, y1 = t.y1 - y < kBlockSize - 1 ? t.y1 - y : kBlockSize - 1;
+  const std::uint64_t columns = ((0xFFull >> (7 - x1 + x0)) << x0) * 0x0101010101010101ull;
+  const std::uint64_t rows = (~std::uint64_t{0} >> (kBlockSize * (7 - y1 + y0))) << (kBlockSize * y0);
+  if (full) return columns & rows;
   const I32 d;
   const std::size_t lanes = hn::Lanes(d);
-  const int y0 = t.y0 > y ? t.y0 - y : 0, y1 = t.y1 - y < kBlockSize - 1 ? t.y1 - y : kBlockSize - 1;
   std::uint64_t bits = 0;
   for (std::size_t lane = 0; lane < kBlockSize; lane += lanes) {
     const auto iota = hn::Load(d, kIotaInt + lane);
@@ -52,7 +56,7 @@ HWY_INLINE HWY_ATTR std::uint64_t blockCoverage(const TriangleSetup& t, int x, i
       e0 = hn::Add(e0, b0), e1 = hn::Add(e1, b1), e2 = hn::Add(e2, b2);
     }
   }
-  return bits;
+  return bits & columns;
 }
 
 // The keys of the eight pixels of a block's row. x, y: the row's first pixel in the tile.
