@@ -1,1 +1,7 @@
-target_sources(copeel_csg PRIVATE )
+# Files to models.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(POLYCLIPPING REQUIRED IMPORTED_TARGET polyclipping)
+target_link_libraries(copeel_csg PRIVATE PkgConfig::POLYCLIPPING)
+target_sources(copeel_csg PRIVATE
+  arguments.cpp color_names.cpp csg_syntax.cpp degrees.cpp evaluate.cpp polyhedron.cpp read_csg.cpp restore_matrix.cpp
+  shapes.cpp solids.cpp)

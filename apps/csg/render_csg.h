@@ -29,13 +29,15 @@ struct ColorScheme {
 
 struct Section {
   int axis = 0;          // 0 x, 1 y, 2 z
-  double at = 0;         // model units; the half-space beyond it (coordinate > at) is cut away
+  double at = 0;         // model units; the half-space beyond it (coordinate > at) is cut away …
+  bool below = false;    // … or the one before it (coordinate < at)
 };
 
 struct RenderOptions {
   InsideRule inside = InsideRule::NonZero;
   ColorScheme scheme;
   bool lit = true;
+  bool edges = false;              // draws the edges of the faces
   std::vector<Section> sections;
   double coplanarTolerance = 0;    // model units; 0: from the scene (see core/coplanarity/plane_classes.h)
   int threads = 0;                 // 0: all cores

@@ -1,0 +1,13 @@
+// copeel csg: a CSG model to a picture.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace copeel::csg {
+
+// Declares the sub-command; it runs, and throws copeel::Error, while `program` parses the command line.
+void addCommand(CLI::App& program);
+
+}  // namespace copeel::csg

@@ -1,0 +1,44 @@
+// Leaf nodes to meshes; nodes of the same shape get one mesh.
+#pragma once
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "apps/csg/csg_syntax.h"
+#include "apps/csg/external.h"
+#include "apps/csg/solids.h"
+
+namespace copeel::csg {
+
+class Shapes {
+ public:
+  // `folder` is where relative paths start. `external` holds what openscad evaluated for this tree.
+  Shapes(const SyntaxTree& tree, std::string folder, const ExternalShapes& external)
+      : tree_(tree), folder_(std::move(folder)), external_(external) {}
+
+  // The mesh of a leaf node, null where it is empty. A flat shape is a slab of thickness 1, as openscad previews it.
+  MeshPointer meshOf(std::uint32_t node);
+  std::vector<std::string>& warnings() { return warnings_; }
+
+ private:
+  MeshPointer make(std::uint32_t node);
+  MeshPointer makeCylinderOf(const SyntaxNode& node) const;
+  MeshPointer makePolyhedronOf(const SyntaxNode& node) const;
+  MeshPointer makeImport(const SyntaxNode& node);
+  MeshPointer makeFlat(std::uint32_t node);
+  std::string keyOf(const SyntaxNode& node) const;
+
+  const SyntaxTree& tree_;
+  std::string folder_;
+  const ExternalShapes& external_;
+  std::vector<std::string> warnings_;
+  std::unordered_map<std::string, MeshPointer> meshes_;
+};
+
+// What a node makes by itself, whatever its children are.
+bool isTreeKeyword(Keyword keyword);       // group … render: its children are placed one by one
+bool isFlatKeyword(Keyword keyword);       // square, circle, polygon, text, offset
+bool isExternalKeyword(Keyword keyword);   // evaluated by openscad
+
+}  // namespace copeel::csg
