@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -57,9 +56,8 @@ int run(int argc, char** argv) {
   program.set_version_flag("--version", "copeel " COPEEL_VERSION);
   program.require_subcommand(1);
   addCommands(program);
-  const auto isNamed = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
-  const std::vector<CLI::App*> commands = program.get_subcommands({});
-  if (argc > 1 && argv[1][0] != '-' && std::none_of(commands.begin(), commands.end(), isNamed)) {
+  const auto named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
+  if (argc > 1 && argv[1][0] != '-' && program.get_subcommands(named).empty()) {
     return fail(ExitCode::Usage, fmt::format("no command '{}' (see copeel --help)", argv[1]));
   }
   try {

@@ -29,7 +29,8 @@ struct ColorScheme {
 
 struct Section {
   int axis = 0;          // 0 x, 1 y, 2 z
-  double at = 0;         // model units; the half-space beyond it (coordinate > at) is cut away
+  double at = 0;         // model units; the half-space beyond it (coordinate > at) is cut away …
+  bool below = false;    // … or the one before it (coordinate < at)
 };
 
 struct RenderOptions {

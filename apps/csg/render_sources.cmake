@@ -1,1 +1,10 @@
-target_sources(copeel_csg PRIVATE )
+find_package(TBB REQUIRED)
+target_sources(copeel_csg PRIVATE
+  bounds.cpp
+  csg_fold.cpp
+  eye_winding.cpp
+  gates.cpp
+  look.cpp
+  render_csg.cpp
+)
+target_link_libraries(copeel_csg PRIVATE TBB::tbb)

@@ -18,6 +18,9 @@ struct Object {
   glm::dmat4 worldFromObject{1.0};   // affine; a negative determinant mirrors and is honoured
 };
 
+// Ids from here on name the pieces of triangles that were clipped (core/cpu/projection.h).
+inline constexpr std::uint32_t kPrimitiveLimit = 0xC0000000u;
+
 class Scene {
  public:
   Scene() = default;

@@ -20,7 +20,7 @@ struct View {
   glm::dvec3 forward{0, 0, -1};           // unit
   glm::dvec3 right{1, 0, 0};              // one pixel to the right; at unit distance (perspective) or anywhere (orthographic)
   glm::dvec3 down{0, -1, 0};              // one pixel down, likewise
-  glm::dvec2 offset{0, 0};                // of the sample within its pixel, in pixels, |offset| < 0.5; for anti-aliasing
+  glm::dvec2 offset{0, 0};                // of the sample within its pixel, in pixels, a multiple of 2^-16 below 0.5; for anti-aliasing
 };
 
 }  // namespace copeel

@@ -1,0 +1,61 @@
+// Colours of leaves and parts, and their blending.
+#include "apps/csg/look.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace copeel::csg {
+namespace {
+
+constexpr double kAmbient = 0.2;
+// openscad's colours of what carries % and #, 0 … 255 and alpha.
+const glm::dvec4 kBackgroundPart(180, 180, 180, 128.0 / 255);
+const glm::dvec4 kHighlightPart(255, 81, 81, 128.0 / 255);
+
+glm::dvec3 toVector(const std::array<double, 3>& c) { return {c[0], c[1], c[2]}; }
+
+}  // namespace
+
+Look::Look(const Model& model, const GateForest& forest, const RenderOptions& options)
+    : model_(model), forest_(forest), options_(options) {}
+
+void Look::setView(const PlaneClasses& planes, const View& view) {
+  const glm::dvec3 right = glm::normalize(view.right), up = -glm::normalize(view.down);
+  const glm::dvec3 light = (-right + up - view.forward) / std::sqrt(3.0);
+  shade_.clear();
+  for (const PlaneClass& planeClass : planes.classes()) {
+    const double lit = std::min(1.0, kAmbient + std::abs(glm::dot(planeClass.normal, light)));
+    shade_.push_back(static_cast<float>(options_.lit ? lit : 1.0));
+  }
+}
+
+glm::dvec4 Look::colorOf(std::uint32_t leaf, std::uint32_t part) const {
+  if (part > 0) return part <= model_.background.size() ? kBackgroundPart : kHighlightPart;
+  if (leaf < model_.leaves.size() && model_.leaves[leaf].color) {
+    const glm::dvec4 c = *model_.leaves[leaf].color;
+    return {c.r * 255, c.g * 255, c.b * 255, c.a};
+  }
+  return {toVector(forest_.cuts[leaf] ? options_.scheme.cutout : options_.scheme.front), 1.0};
+}
+
+double Look::alpha(std::uint32_t leaf, std::uint32_t part) const { return colorOf(leaf, part).a; }
+
+bool Look::translucent(std::uint32_t leaf) const {
+  return leaf < model_.leaves.size() && model_.leaves[leaf].color && model_.leaves[leaf].color->a < 1;
+}
+
+glm::dvec3 Look::blend(const std::vector<Surface>& frontToBack) const {
+  glm::dvec3 sum(0);
+  double through = 1;
+  for (const Surface& surface : frontToBack) {
+    const glm::dvec4 color = colorOf(surface.leaf, surface.part);
+    const double alpha = std::clamp(color.a, 0.0, 1.0);
+    sum += glm::dvec3(color) * (double(shade_[surface.planeClass]) * alpha * through);
+    through *= 1 - alpha;
+  }
+  return sum + toVector(options_.scheme.background) * through;
+}
+
+}  // namespace copeel::csg

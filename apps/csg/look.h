@@ -1,0 +1,30 @@
+// How surfaces look: openscad's preview. Colour = base · min(1, 0.2 + |n·l|), l = (-1, 1, 1)/√3 in eye space, blended in float.
+#pragma once
+
+#include <vector>
+
+#include "apps/csg/csg_fold.h"
+#include "core/coplanarity/plane_classes.h"
+
+namespace copeel::csg {
+
+class Look {
+ public:
+  Look(const Model& model, const GateForest& forest, const RenderOptions& options);
+
+  void setView(const PlaneClasses& planes, const View& view);   // shades each plane class once
+  double alpha(std::uint32_t leaf, std::uint32_t part) const;
+  bool translucent(std::uint32_t leaf) const;
+  glm::dvec3 blend(const std::vector<Surface>& frontToBack) const;   // 0 … 255, over the background
+  const ColorScheme& scheme() const { return options_.scheme; }
+
+ private:
+  glm::dvec4 colorOf(std::uint32_t leaf, std::uint32_t part) const;
+
+  const Model& model_;
+  const GateForest& forest_;
+  const RenderOptions& options_;
+  std::vector<float> shade_;
+};
+
+}  // namespace copeel::csg

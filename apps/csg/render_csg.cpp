@@ -1,0 +1,250 @@
+// From model to frame: leaves become a scene, sections become leaves, the fold's surfaces become pixels.
+#include "apps/csg/render_csg.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+#include <sys/resource.h>
+#include <tbb/task_arena.h>
+
+#include "apps/csg/bounds.h"
+#include "apps/csg/look.h"
+#include "core/cpu/render_nearest.h"
+#include "core/cpu/render_tiles.h"
+#include "core/formats/read_mesh.h"
+#include "core/methods/method.h"
+
+namespace copeel::csg {
+namespace {
+
+double nowMs() {
+  using namespace std::chrono;
+  return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
+}
+
+std::uint64_t peakMemoryBytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+// A box that reaches from the section plane well past the model.
+std::shared_ptr<const Mesh> sectionMesh(const Section& section, const Box& bounds) {
+  Box box = bounds;
+  const glm::dvec3 margin(bounds.diagonal() + 1);
+  box.min -= margin;
+  box.max += margin;
+  (section.below ? box.max : box.min)[section.axis] = section.at;
+  auto mesh = std::make_shared<Mesh>();
+  for (int corner = 0; corner < 8; ++corner) {
+    mesh->vertices.emplace_back(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z);
+  }
+  const bool beyond = box.min[section.axis] >= box.max[section.axis];   // the plane misses even the margin: nothing to cut
+  if (beyond) return mesh;
+  constexpr std::uint32_t kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (std::uint32_t f = 0; f < 6; ++f) {
+    mesh->triangles.insert(mesh->triangles.end(), {{kFaces[f][0], kFaces[f][1], kFaces[f][2]}, {kFaces[f][0], kFaces[f][2], kFaces[f][3]}});
+    mesh->facets.insert(mesh->facets.end(), {f, f});
+  }
+  return mesh;
+}
+
+// Spreads samples evenly over the pixel; offsets are multiples of 2^-16, so that pixel coordinates stay exact.
+// Based on: Roberts. The unreasonable effectiveness of quasirandom sequences. 2018 (R2 sequence).
+glm::dvec2 sampleOffset(int index, int count) {
+  if (count == 1) return {0, 0};
+  const auto fraction = [&](double step) {
+    const double x = 0.5 + index * step;
+    return std::floor((x - std::floor(x)) * 65536) / 65536 - 0.5;
+  };
+  return {fraction(0.7548776662466927), fraction(0.5698402909980532)};
+}
+
+}  // namespace
+
+struct Renderer::State {
+  const Model& model;
+  RenderOptions options;
+  Box bounds;
+  std::vector<std::uint32_t> sectionLeaves;
+  Scene scene;
+  PlaneClasses planes;
+  GateForest forest;
+  std::unique_ptr<Look> look;
+  std::unordered_map<const Mesh*, bool> closedMeshes;   // found out only where the eye may be inside
+  std::unique_ptr<tbb::task_arena> arena;
+  Stats stats;
+
+  State(const Model& m, const RenderOptions& o) : model(m), options(o) {}
+  void prepare();
+  std::vector<std::uint8_t> closedObjects(const std::vector<std::uint8_t>& reachesEye);
+  void drawPass(const View& view, PixelSink& sink);
+  void drawTiles(const cpu::Frame& frame, PixelSink& sink);
+};
+
+void Renderer::State::prepare() {
+  const double start = nowMs();
+  std::vector<Object> objects;
+  for (const Leaf& leaf : model.leaves) objects.push_back({leaf.mesh, leaf.worldFromObject});
+  bounds = viewBounds(model);
+  const Box reach = Scene(objects).bounds();
+  for (const Section& section : options.sections) {
+    sectionLeaves.push_back(static_cast<std::uint32_t>(objects.size()));
+    objects.push_back({sectionMesh(section, reach), glm::dmat4(1)});
+  }
+  scene = Scene(std::move(objects));
+  planes = PlaneClasses(scene, options.coplanarTolerance);
+  std::vector<std::uint8_t> translucent(scene.objects().size(), 0);
+  for (std::size_t i = 0; i < model.leaves.size(); ++i) translucent[i] = model.leaves[i].color && model.leaves[i].color->a < 1;
+  forest = buildGates(model, sectionLeaves, translucent, static_cast<std::uint32_t>(scene.objects().size()));
+  look = std::make_unique<Look>(model, forest, options);
+  stats.method = options.method;
+  stats.triangles = scene.primitiveCount();
+  stats.leaves = model.leaves.size();
+  stats.planeClasses = planes.classes().size();
+  stats.prepareMs = nowMs() - start;
+}
+
+std::vector<std::uint8_t> Renderer::State::closedObjects(const std::vector<std::uint8_t>& reachesEye) {
+  std::vector<std::uint8_t> closed(scene.objects().size(), 0);
+  for (std::size_t i = 0; i < closed.size(); ++i) {
+    if (!reachesEye[i]) continue;
+    const Mesh* mesh = scene.objects()[i].mesh.get();
+    auto [entry, fresh] = closedMeshes.try_emplace(mesh, false);
+    if (fresh) entry->second = statusOf(*mesh).closed;
+    closed[i] = entry->second;
+  }
+  return closed;
+}
+
+void Renderer::State::drawTiles(const cpu::Frame& frame, PixelSink& sink) {
+  EyeWinding eye;
+  const std::vector<std::uint8_t>& reaches = frame.projection.reachesEye;
+  if (std::find(reaches.begin(), reaches.end(), 1) != reaches.end()) {
+    eye = eyeWinding(scene, frame.view.eye, reaches, closedObjects(reaches));
+  }
+  const auto alpha = [](const void* context, std::uint32_t leaf, std::uint32_t part) {
+    return static_cast<const Look*>(context)->alpha(leaf, part);
+  };
+  cpu::TileOptions tileOptions;
+  tileOptions.decideAllExactly = options.decideAllExactly;
+  const cpu::TileCounts counts = cpu::renderTiles(
+      frame, tileOptions, [&] { return CsgFold(forest, eye, options.inside, alpha, look.get(), sink); });
+  stats.fragments = stats.fragmentsCaptured = counts.fragments;
+  stats.depthComplexityMax = counts.depthComplexityMax;
+  stats.coplanarPixels = counts.coplanarPixels;
+  stats.decidedExactly = counts.decidedExactly;
+}
+
+void Renderer::State::drawPass(const View& view, PixelSink& sink) {
+  look->setView(planes, view);
+  const cpu::Frame frame(scene, planes, view);
+  if (options.method == "zbuffer") {
+    cpu::renderNearest(frame, [&](int x, int y, const cpu::TileSlot* slot, const cpu::Tile& tile) {
+      std::vector<Surface> surfaces;
+      if (slot) surfaces.push_back({slot->primitive, slot->planeClass, tile.objects[slot->object].object, 0});
+      sink.pixel(x, y, surfaces);
+    });
+  } else {
+    drawTiles(frame, sink);
+  }
+}
+
+namespace {
+
+// Writes surfaces into the frame's images; colours are summed over samples.
+class FrameSink : public PixelSink {
+ public:
+  FrameSink(Frame& frame, const Look& look, Image<glm::vec3>* sum) : frame_(frame), look_(look), sum_(sum) {}
+  // Depth needs the view's planes.
+  void setView(const Scene& scene, const PlaneClasses& planes, const View& view) {
+    view_ = &view;
+    if (!frame_.depth.pixels.empty()) depths_ = depthPlanes(scene, planes, view);
+  }
+  void pixel(int x, int y, const std::vector<Surface>& surfaces) override {
+    if (sum_) sum_->at(x, y) += glm::vec3(look_.blend(surfaces) - look_.blend({}));
+    else if (!frame_.color.pixels.empty()) frame_.color.at(x, y) = toRgb8(look_.blend(surfaces));
+    if (frame_.depth.pixels.empty() && frame_.ids.pixels.empty()) return;
+    const auto solid = std::find_if(surfaces.begin(), surfaces.end(), [](const Surface& s) { return s.part == 0; });
+    if (solid == surfaces.end()) return;
+    if (!frame_.ids.pixels.empty()) frame_.ids.at(x, y) = static_cast<std::uint16_t>(std::min<std::uint32_t>(solid->leaf + 1, 65535));
+    if (!frame_.depth.pixels.empty()) frame_.depth.at(x, y) = depthAt(solid->planeClass, x, y);
+  }
+  static Rgb8 toRgb8(const glm::dvec3& color) {
+    const auto byte = [](double v) { return static_cast<std::uint8_t>(std::clamp(std::lround(v), 0l, 255l)); };
+    return {byte(color.r), byte(color.g), byte(color.b)};
+  }
+
+ private:
+  float depthAt(std::uint32_t planeClass, int x, int y) const {
+    const DepthPlane& plane = depths_[planeClass];
+    const double u = x + 0.5 + view_->offset.x - view_->width * 0.5, v = y + 0.5 + view_->offset.y - view_->height * 0.5;
+    const double s = std::clamp(plane.a * u + (plane.b * v + plane.c), double(plane.lo), double(plane.hi));
+    return static_cast<float>(distanceOf(s, *view_));
+  }
+
+  Frame& frame_;
+  const Look& look_;
+  Image<glm::vec3>* sum_;
+  const View* view_ = nullptr;
+  std::vector<DepthPlane> depths_;
+};
+
+}  // namespace
+
+Renderer::Renderer(const Model& model, const RenderOptions& options) : state_(std::make_unique<State>(model, options)) {
+  if (!findMethod(options.method)) failUsage("--method {}: there is no such method", options.method);
+  state_->arena = std::make_unique<tbb::task_arena>(options.threads > 0 ? options.threads : int{tbb::task_arena::automatic});
+  state_->arena->execute([&] { state_->prepare(); });
+}
+
+Renderer::~Renderer() = default;
+
+const Box& Renderer::bounds() const { return state_->bounds; }
+const Stats& Renderer::stats() const { return state_->stats; }
+
+Frame Renderer::draw(const View& view) {
+  State& state = *state_;
+  const RenderOptions& options = state.options;
+  Frame frame;
+  const std::array<double, 3>& b = options.scheme.background;
+  frame.color = Image<Rgb8>(view.width, view.height, FrameSink::toRgb8({b[0], b[1], b[2]}));
+  if (options.wantDepth) frame.depth = Image<float>(view.width, view.height, std::numeric_limits<float>::infinity());
+  if (options.wantIds) frame.ids = Image<std::uint16_t>(view.width, view.height);
+  state.arena->execute([&] {
+    if (options.samples <= 1) {
+      FrameSink sink(frame, *state.look, nullptr);
+      sink.setView(state.scene, state.planes, view);
+      state.drawPass(view, sink);
+      return;
+    }
+    // Depth and ids are those of the pixel's centre; colours are the mean of the samples, summed as differences from the background so that
+    // pixels nothing was drawn to need no visit.
+    if (options.wantDepth || options.wantIds) {
+      FrameSink sink(frame, *state.look, nullptr);
+      sink.setView(state.scene, state.planes, view);
+      state.drawPass(view, sink);
+    }
+    Image<glm::vec3> sum(view.width, view.height, glm::vec3(0));
+    for (int i = 0; i < options.samples; ++i) {
+      View shifted = view;
+      shifted.offset = sampleOffset(i, options.samples);
+      Frame none;
+      FrameSink sink(none, *state.look, &sum);
+      state.drawPass(shifted, sink);
+    }
+    for (std::size_t i = 0; i < sum.pixels.size(); ++i) {
+      frame.color.pixels[i] = FrameSink::toRgb8(glm::dvec3(b[0], b[1], b[2]) + glm::dvec3(sum.pixels[i]) / double(options.samples));
+    }
+  });
+  state.stats.width = view.width;
+  state.stats.height = view.height;
+  state.stats.passes = std::max(options.samples, 1);
+  state.stats.memoryBytes = peakMemoryBytes();
+  return frame;
+}
+
+}  // namespace copeel::csg

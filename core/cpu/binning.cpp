@@ -1,0 +1,166 @@
+// Chunks of triangles are binned in parallel to lists of (tile, reference), then gathered by a counting sort that keeps their order:
+// the result does not depend on the number of threads.
+#include "core/cpu/binning.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace copeel::cpu {
+namespace {
+
+constexpr std::uint32_t kChunkTriangles = 8192;
+
+struct Chunk {
+  std::uint32_t firstObject, firstTriangle;   // where it starts
+  std::uint32_t count;                        // triangles, running on into the next objects
+};
+
+struct Entry {
+  std::uint32_t tile, reference;
+};
+
+struct ChunkBins {
+  std::vector<Entry> entries;
+  std::vector<ClippedTriangle> clipped;
+};
+
+std::vector<Chunk> chunksOf(const Scene& scene) {
+  std::vector<Chunk> chunks;
+  std::uint32_t object = 0;
+  for (std::uint32_t p = 0; p < scene.primitiveCount(); p += kChunkTriangles) {
+    while (object + 1 < scene.objects().size() && scene.firstPrimitive(object + 1) <= p) ++object;
+    chunks.push_back({object, p - scene.firstPrimitive(object), std::min(kChunkTriangles, scene.primitiveCount() - p)});
+  }
+  return chunks;
+}
+
+// The tiles a triangle may cover a sample of.
+class Binner {
+ public:
+  Binner(const View& view, int bits, int columns, std::vector<Entry>& entries)
+      : bits_(bits), width_(view.width), height_(view.height), columns_(columns), entries_(entries) {}
+
+  void add(const glm::ivec2& p, const glm::ivec2& q, const glm::ivec2& r, std::uint32_t reference) {
+    // Samples have whole-pixel coordinates: the first at or after the smallest corner, the last at or before the largest.
+    const int round = (1 << bits_) - 1;
+    const int x0 = std::max((std::min({p.x, q.x, r.x}) + round) >> bits_, 0);
+    const int y0 = std::max((std::min({p.y, q.y, r.y}) + round) >> bits_, 0);
+    const int x1 = std::min(std::max({p.x, q.x, r.x}) >> bits_, width_ - 1);
+    const int y1 = std::min(std::max({p.y, q.y, r.y}) >> bits_, height_ - 1);
+    if (x0 > x1 || y0 > y1) return;
+    const std::int64_t area = std::int64_t{q.x - p.x} * (r.y - p.y) - std::int64_t{q.y - p.y} * (r.x - p.x);
+    if (area == 0) return;
+    const int c0 = x0 / kTileSize, c1 = x1 / kTileSize, r0 = y0 / kTileSize, r1 = y1 / kTileSize;
+    if (c0 == c1 && r0 == r1) {
+      entries_.push_back({static_cast<std::uint32_t>(r0 * columns_ + c0), reference});
+      return;
+    }
+    const bool small = (c1 - c0 + 1) * (r1 - r0 + 1) <= 2;
+    for (int row = r0; row <= r1; ++row) {
+      for (int column = c0; column <= c1; ++column) {
+        if (!small && misses(p, q, r, area > 0, column, row)) continue;
+        entries_.push_back({static_cast<std::uint32_t>(row * columns_ + column), reference});
+      }
+    }
+  }
+
+ private:
+  // True when one edge has the whole tile on its outer side.
+  bool misses(const glm::ivec2& p, const glm::ivec2& q, const glm::ivec2& r, bool positive, int column, int row) const {
+    return outside(p, q, positive, column, row) || outside(q, r, positive, column, row) || outside(r, p, positive, column, row);
+  }
+  bool outside(const glm::ivec2& from, const glm::ivec2& to, bool positive, int column, int row) const {
+    std::int64_t a = from.y - to.y, b = to.x - from.x;
+    if (!positive) a = -a, b = -b;
+    const std::int64_t x = std::int64_t{column * kTileSize + (a > 0 ? kTileSize - 1 : 0)} << bits_;
+    const std::int64_t y = std::int64_t{row * kTileSize + (b > 0 ? kTileSize - 1 : 0)} << bits_;
+    return a * (x - from.x) + b * (y - from.y) < 0;
+  }
+
+  int bits_, width_, height_, columns_;
+  std::vector<Entry>& entries_;
+};
+
+void binChunk(const Scene& scene, const View& view, const Projection& projection, const Chunk& chunk, int columns, ChunkBins& out) {
+  Binner binner(view, projection.grid.bits, columns, out.entries);
+  std::uint32_t object = chunk.firstObject, triangle = chunk.firstTriangle, left = chunk.count;
+  std::vector<ClippedTriangle> pieces;
+  for (; left > 0; ++object, triangle = 0) {
+    const Mesh& mesh = *scene.objects()[object].mesh;
+    const glm::ivec2* vertices = projection.vertices.data() + projection.firstVertex[object];
+    const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(mesh.triangles.size(), std::size_t{triangle} + left));
+    left -= end - triangle;
+    const std::uint32_t base = scene.firstPrimitive(object);
+    for (; triangle < end; ++triangle) {
+      const glm::uvec3 t = mesh.triangles[triangle];
+      const glm::ivec2 &p = vertices[t.x], &q = vertices[t.y], &r = vertices[t.z];
+      if (p.x != kOffGrid && q.x != kOffGrid && r.x != kOffGrid) {
+        binner.add(p, q, r, base + triangle);
+        continue;
+      }
+      pieces.clear();
+      clipTriangle(scene, view, projection.grid, object, base + triangle, pieces);
+      for (const ClippedTriangle& piece : pieces) {
+        // The reference is relative to the chunk until the chunks are joined.
+        binner.add(piece.corners[0], piece.corners[1], piece.corners[2], kPrimitiveLimit + static_cast<std::uint32_t>(out.clipped.size()));
+        out.clipped.push_back(piece);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Bins binTriangles(const Scene& scene, const View& view, const Projection& projection) {
+  Bins bins;
+  bins.columns = (view.width + kTileSize - 1) / kTileSize;
+  bins.rows = (view.height + kTileSize - 1) / kTileSize;
+  const std::vector<Chunk> chunks = chunksOf(scene);
+  std::vector<ChunkBins> parts(chunks.size());
+  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t i) {
+    parts[i].entries.reserve(chunks[i].count);
+    binChunk(scene, view, projection, chunks[i], bins.columns, parts[i]);
+  });
+
+  // Join the clipped pieces, and let the references follow.
+  for (ChunkBins& part : parts) {
+    const auto base = static_cast<std::uint32_t>(bins.clipped.size());
+    if (base > 0 && !part.clipped.empty()) {
+      for (Entry& e : part.entries) e.reference += e.reference >= kPrimitiveLimit ? base : 0;
+    }
+    bins.clipped.insert(bins.clipped.end(), part.clipped.begin(), part.clipped.end());
+  }
+
+  // Counting sort by tile: groups of consecutive chunks count for themselves, a prefix sum over (tile, group) gives each its places.
+  const std::size_t tiles = static_cast<std::size_t>(bins.columns) * bins.rows;
+  const std::size_t groups = std::clamp<std::size_t>(tbb::this_task_arena::max_concurrency(), 1, std::max<std::size_t>(parts.size(), 1));
+  std::vector<std::vector<std::uint64_t>> place(groups, std::vector<std::uint64_t>(tiles, 0));
+  const auto forGroup = [&](std::size_t g, auto&& visit) {
+    for (std::size_t i = parts.size() * g / groups; i < parts.size() * (g + 1) / groups; ++i) visit(parts[i]);
+  };
+  tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t g) {
+    forGroup(g, [&](const ChunkBins& part) {
+      for (const Entry& e : part.entries) ++place[g][e.tile];
+    });
+  });
+  bins.first.resize(tiles + 1);
+  std::uint64_t sum = 0;
+  for (std::size_t tile = 0; tile < tiles; ++tile) {
+    bins.first[tile] = sum;
+    for (auto& p : place) sum += std::exchange(p[tile], sum);
+  }
+  bins.first[tiles] = sum;
+  bins.references.resize(sum);
+  tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t g) {
+    forGroup(g, [&](ChunkBins& part) {
+      for (const Entry& e : part.entries) bins.references[place[g][e.tile]++] = e.reference;
+      part.entries = {};
+    });
+  });
+  return bins;
+}
+
+}  // namespace copeel::cpu

@@ -1,0 +1,24 @@
+// One view of a scene made ready for tiles: projected, binned, with a depth function per plane class.
+#pragma once
+
+#include <vector>
+
+#include "core/coplanarity/depth_planes.h"
+#include "core/cpu/binning.h"
+
+namespace copeel::cpu {
+
+struct Frame {
+  Frame(const Scene& scene, const PlaneClasses& planes, const View& view);
+
+  const Scene& scene;
+  const PlaneClasses& planes;
+  const View& view;
+  std::vector<DepthPlane> depths;       // per plane class
+  Projection projection;
+  Bins bins;
+
+  int tileCount() const { return bins.columns * bins.rows; }
+};
+
+}  // namespace copeel::cpu

@@ -1,0 +1,194 @@
+// Included once per SIMD target by kernels.cpp; no include guard but Highway's.
+#if defined(COPEEL_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef COPEEL_KERNELS_INL_H_
+#undef COPEEL_KERNELS_INL_H_
+#else
+#define COPEEL_KERNELS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "core/cpu/kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace copeel::cpu {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using I32 = hn::CappedTag<std::int32_t, kBlockSize>;
+using F64 = hn::CappedTag<double, kBlockSize>;
+using U64 = hn::CappedTag<std::uint64_t, kBlockSize>;
+
+alignas(64) inline constexpr double kIota[kBlockSize] = {0, 1, 2, 3, 4, 5, 6, 7};
+alignas(64) inline constexpr std::int32_t kIotaInt[kBlockSize] = {0, 1, 2, 3, 4, 5, 6, 7};
+
+// Bit x of row y (bit 8·y + x) is set where all three edges are not negative. x, y: the block's first pixel in the tile.
+HWY_INLINE HWY_ATTR std::uint64_t blockCoverage(const TriangleSetup& t, int x, int y) {
+  std::int32_t e[3];
+  bool full = true;
+  for (int i = 0; i < 3; ++i) {
+    e[i] = t.a[i] * x + t.b[i] * y + t.c[i];
+    const std::int32_t across = (kBlockSize - 1) * t.a[i], down = (kBlockSize - 1) * t.b[i];
+    if (e[i] + (across > 0 ? across : 0) + (down > 0 ? down : 0) < 0) return 0;
+    full &= e[i] + (across < 0 ? across : 0) + (down < 0 ? down : 0) >= 0;
+  }
+  // Edges that the triangle's bounds make redundant were dropped, so the bounds count.
+  const int x0 = t.x0 > x ? t.x0 - x : 0, x1 = t.x1 - x < kBlockSize - 1 ? t.x1 - x : kBlockSize - 1;
+  const int y0 = t.y0 > y ? t.y0 - y : 0, y1 = t.y1 - y < kBlockSize - 1 ? t.y1 - y : kBlockSize - 1;
+  const std::uint64_t columns = ((0xFFull >> (7 - x1 + x0)) << x0) * 0x0101010101010101ull;
+  const std::uint64_t rows = (~std::uint64_t{0} >> (kBlockSize * (7 - y1 + y0))) << (kBlockSize * y0);
+  if (full) return columns & rows;
+  const I32 d;
+  const std::size_t lanes = hn::Lanes(d);
+  std::uint64_t bits = 0;
+  for (std::size_t lane = 0; lane < kBlockSize; lane += lanes) {
+    const auto iota = hn::Load(d, kIotaInt + lane);
+    auto e0 = hn::Add(hn::Set(d, e[0] + t.b[0] * y0), hn::Mul(hn::Set(d, t.a[0]), iota));
+    auto e1 = hn::Add(hn::Set(d, e[1] + t.b[1] * y0), hn::Mul(hn::Set(d, t.a[1]), iota));
+    auto e2 = hn::Add(hn::Set(d, e[2] + t.b[2] * y0), hn::Mul(hn::Set(d, t.a[2]), iota));
+    const auto b0 = hn::Set(d, t.b[0]), b1 = hn::Set(d, t.b[1]), b2 = hn::Set(d, t.b[2]);
+    for (int row = y0; row <= y1; ++row) {
+      const auto outside = hn::Lt(hn::Or(hn::Or(e0, e1), e2), hn::Zero(d));
+      std::uint8_t byte[8] = {};
+      hn::StoreMaskBits(d, hn::Not(outside), byte);
+      bits |= (std::uint64_t{byte[0]} & ((1u << lanes) - 1)) << (row * kBlockSize + lane);
+      e0 = hn::Add(e0, b0), e1 = hn::Add(e1, b1), e2 = hn::Add(e2, b2);
+    }
+  }
+  return bits & columns;
+}
+
+// The keys of the eight pixels of a block's row. x, y: the row's first pixel in the tile.
+HWY_INLINE HWY_ATTR void rowKeys(const TriangleSetup& t, int x, int y, KeyFormat format, std::uint64_t* keys) {
+  const F64 d;
+  const U64 u;
+  const auto da = hn::Set(d, t.da), base = hn::Set(d, t.db * y + t.dc);
+  const auto lo = hn::Set(d, t.lo), hi = hn::Set(d, t.hi), first = hn::Set(d, static_cast<double>(x));
+  const auto slot = hn::Set(u, std::uint64_t{t.slot});
+  for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(d)) {
+    const auto at = hn::Add(first, hn::Load(d, kIota + lane));
+    const auto depth = hn::Min(hn::Max(hn::Add(hn::Mul(da, at), base), lo), hi);
+    // The mantissa of 2^52 + n is n: shifted up it loses exponent and sign, shifted back it leaves the two clear bits of a key.
+    const auto bits = hn::ShiftRight<64 - kKeyBits>(hn::ShiftLeftSame(hn::BitCast(u, depth), 64 - format.depthBits));
+    hn::Store(hn::Or(bits, slot), u, keys + lane);
+  }
+}
+
+template <class Visit>
+HWY_INLINE HWY_ATTR bool forEachBlock(const TriangleSetup& t, const BlockRect& rect, Visit visit) {
+  const int bx0 = std::max(t.x0 / kBlockSize, rect.bx0), bx1 = std::min(t.x1 / kBlockSize + 1, rect.bx1);
+  const int by0 = std::max(t.y0 / kBlockSize, rect.by0), by1 = std::min(t.y1 / kBlockSize + 1, rect.by1);
+  for (int by = by0; by < by1; ++by) {
+    for (int bx = bx0; bx < bx1; ++bx) {
+      const std::uint64_t covered = blockCoverage(t, bx * kBlockSize, by * kBlockSize);
+      if (covered && !visit(by * kBlocksPerSide + bx, bx * kBlockSize, by * kBlockSize, covered)) return false;
+    }
+  }
+  return true;
+}
+
+HWY_INLINE HWY_ATTR bool sameCounts(const std::uint32_t* counts) {
+  std::uint64_t pair[4];
+  __builtin_memcpy(pair, counts, sizeof pair);
+  const std::uint64_t first = std::uint64_t{counts[0]} * 0x100000001ull;
+  return pair[0] == first && pair[1] == first && pair[2] == first && pair[3] == first;
+}
+
+HWY_ATTR bool CollectFragments(const TriangleSetup* triangles, std::size_t count, KeyFormat format, const BlockRect& rect,
+                               std::uint32_t finished, FragmentGrid& grid) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const TriangleSetup& t = triangles[i];
+    const bool room = forEachBlock(t, rect, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
+      if (finished >> index & 1) return true;
+      FragmentGrid::Block& block = grid.block(index);
+      if (block.used == block.capacity && !grid.grow(block)) return false;
+      ++block.used;
+      for (int row = __builtin_ctzll(covered) / kBlockSize; row < kBlockSize; ++row) {
+        std::uint32_t mask = covered >> (row * kBlockSize) & 0xFF;
+        if (!mask) continue;
+        alignas(64) std::uint64_t keys[kBlockSize];
+        rowKeys(t, x, y + row, format, keys);
+        std::uint32_t* counts = block.counts + row * kBlockSize;
+        std::uint64_t* pixels = block.keys.get() + row * kBlockSize;
+        if (mask == 0xFF && sameCounts(counts)) {
+          __builtin_memcpy(pixels + std::size_t{counts[0]} * kBlockPixels, keys, sizeof keys);
+          for (int k = 0; k < kBlockSize; ++k) ++counts[k];
+          continue;
+        }
+        for (; mask; mask &= mask - 1) {
+          const int k = __builtin_ctz(mask);
+          pixels[std::size_t{counts[k]++} * kBlockPixels + k] = keys[k];
+        }
+      }
+      return true;
+    });
+    if (!room) return false;
+  }
+  return true;
+}
+
+HWY_ATTR void CollectNearest(const TriangleSetup* triangles, std::size_t count, KeyFormat format, const BlockRect& rect,
+                             std::uint64_t* nearest) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const TriangleSetup& t = triangles[i];
+    forEachBlock(t, rect, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
+      for (int row = __builtin_ctzll(covered) / kBlockSize; row < kBlockSize; ++row) {
+        const std::uint32_t mask = covered >> (row * kBlockSize) & 0xFF;
+        if (!mask) continue;
+        alignas(64) std::uint64_t keys[kBlockSize];
+        rowKeys(t, x, y + row, format, keys);
+        std::uint64_t* pixels = nearest + index * kBlockPixels + row * kBlockSize;
+        for (int k = 0; k < kBlockSize; ++k) {
+          const std::uint64_t key = mask >> k & 1 ? keys[k] : kEmptyKey;
+          pixels[k] = key < pixels[k] ? key : pixels[k];
+        }
+      }
+      return true;
+    });
+  }
+}
+
+HWY_INLINE HWY_ATTR void compareExchange(std::uint64_t* p, std::uint64_t* q) {
+  const F64 d;
+  const U64 u;
+  for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(d)) {
+    const auto a = hn::BitCast(d, hn::LoadU(u, p + lane)), b = hn::BitCast(d, hn::LoadU(u, q + lane));
+    hn::StoreU(hn::BitCast(u, hn::Min(a, b)), u, p + lane);
+    hn::StoreU(hn::BitCast(u, hn::Max(a, b)), u, q + lane);
+  }
+}
+
+// Batcher's odd-even merge sort of n layers, eight pixels at once. Based on: Batcher. Sorting networks and their applications. AFIPS 1968.
+HWY_ATTR void sortLayers(std::uint64_t* layers, std::uint32_t n) {
+  for (std::uint32_t p = 1; p < n; p *= 2) {
+    for (std::uint32_t k = p; k >= 1; k /= 2) {
+      for (std::uint32_t j = k % p; j + k < n; j += 2 * k) {
+        for (std::uint32_t i = j; i < j + k && i + k < n; ++i) {
+          if (i / (2 * p) != (i + k) / (2 * p)) continue;
+          compareExchange(layers + std::size_t{i} * kBlockPixels, layers + std::size_t{i + k} * kBlockPixels);
+        }
+      }
+    }
+  }
+}
+
+HWY_ATTR void SortBlock(FragmentGrid::Block& block) {
+  for (int row = 0; row < kBlockSize; ++row) {
+    const std::uint32_t* counts = block.counts + row * kBlockSize;
+    std::uint32_t n = 0;
+    for (int k = 0; k < kBlockSize; ++k) n = counts[k] > n ? counts[k] : n;
+    if (n < 2) continue;
+    std::uint64_t* keys = block.keys.get() + row * kBlockSize;
+    for (int k = 0; k < kBlockSize; ++k) {
+      for (std::uint32_t layer = counts[k]; layer < n; ++layer) keys[std::size_t{layer} * kBlockPixels + k] = kEmptyKey;
+    }
+    sortLayers(keys, n);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace copeel::cpu
+HWY_AFTER_NAMESPACE();
+
+#endif

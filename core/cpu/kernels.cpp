@@ -1,0 +1,69 @@
+// Coverage block by block, then keys row by row. The hot code is in kernels-inl.h, compiled once per target.
+#include "core/cpu/kernels.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/error.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/cpu/kernels-inl.h"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "core/cpu/kernels-inl.h"
+
+namespace copeel::cpu {
+
+HWY_EXPORT(CollectFragments);
+HWY_EXPORT(SortBlock);
+HWY_EXPORT(CollectNearest);
+
+bool collectFragments(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint32_t finished,
+                      FragmentGrid& grid) {
+  return HWY_DYNAMIC_DISPATCH(CollectFragments)(triangles.data(), triangles.size(), format, rect, finished, grid);
+}
+
+void sortBlock(FragmentGrid::Block& block) { HWY_DYNAMIC_DISPATCH(SortBlock)(block); }
+
+void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint64_t* nearest) {
+  HWY_DYNAMIC_DISPATCH(CollectNearest)(triangles.data(), triangles.size(), format, rect, nearest);
+}
+
+void chooseSimd(const char* name) {
+  hwy::DisableTargets(0);
+  if (!std::strcmp(name, "best")) return;
+  std::int64_t disabled = HWY_AVX3 | HWY_AVX3_DL;
+  if (!std::strcmp(name, "sse4")) disabled |= HWY_AVX2;
+  if (!std::strcmp(name, "scalar")) disabled = ~static_cast<std::int64_t>(HWY_STATIC_TARGET);
+  hwy::DisableTargets(disabled);
+  hwy::GetChosenTarget().DeInit();
+}
+
+void FragmentGrid::clear() {
+  for (Block& block : blocks_) {
+    block.used = 0;
+    std::fill(std::begin(block.counts), std::end(block.counts), 0u);
+  }
+}
+
+bool FragmentGrid::grow(Block& block) {
+  // `used` is an upper bound that counts triangles; fall back on the true maximum before taking memory.
+  const std::uint32_t most = *std::max_element(std::begin(block.counts), std::end(block.counts));
+  if (most < block.capacity) {
+    block.used = most;
+    return true;
+  }
+  const std::uint32_t capacity = std::max<std::uint32_t>(16, block.capacity * 2);
+  const std::size_t layerBytes = kBlockPixels * sizeof(std::uint64_t);
+  if (usedBytes_ + (capacity - block.capacity) * layerBytes > budgetBytes_) return false;
+  auto keys = std::make_unique_for_overwrite<std::uint64_t[]>(std::size_t{capacity} * kBlockPixels);
+  if (most > 0) std::memcpy(keys.get(), block.keys.get(), most * layerBytes);
+  usedBytes_ += (capacity - block.capacity) * layerBytes;
+  block.keys = std::move(keys);
+  block.capacity = capacity;
+  block.used = most;
+  return true;
+}
+
+}  // namespace copeel::cpu

@@ -1,0 +1,84 @@
+// The inner loops of the tile renderer: coverage, depth keys, and sorting, vectorised with run-time dispatch (Google Highway: AVX-512,
+// AVX2, SSE4, scalar). Every target gives the same bytes: coverage is exact integer arithmetic, and the depth of a lane is the same three
+// double operations whatever the width.
+//
+// A fragment is one 64-bit key: depth in the high bits, the triangle's slot in the tile in the low ones. Read as a positive double, keys
+// have the order of (depth, slot), which makes sorting a matter of min and max. Slots follow primitive ids, so ties have one order.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "core/cpu/projection.h"
+
+namespace copeel::cpu {
+
+inline constexpr int kBlockPixels = kBlockSize * kBlockSize;
+inline constexpr int kBlocksPerSide = kTileSize / kBlockSize;
+inline constexpr int kBlocksPerTile = kBlocksPerSide * kBlocksPerSide;
+inline constexpr int kKeyBits = 62;                 // the top two stay clear: a key is a finite positive double
+inline constexpr int kMostDepthBits = 48;
+inline constexpr std::uint64_t kEmptyKey = 0x7FE0000000000000ull;   // greater than every key (2^1023 as a double)
+
+// A triangle in a tile. Pixels count from the tile's upper left sample; e = a·x + b·y + c >= 0 on the inner side of an edge, with the
+// top-left rule folded into c; depth d = clamp(da·x + (db·y + dc), lo, hi) in key units plus 2^52.
+struct TriangleSetup {
+  std::int32_t a[3], b[3], c[3];
+  std::uint8_t x0, y0, x1, y1;      // bounds of covered samples, inclusive
+  std::uint32_t slot;
+  double da, db, dc, lo, hi;
+};
+
+struct KeyFormat {
+  int depthBits = 40;               // slot bits are the rest of kKeyBits
+  int slotBits() const { return kKeyBits - depthBits; }
+  std::uint64_t depthOf(std::uint64_t key) const { return key >> slotBits(); }
+  std::uint32_t slotOf(std::uint64_t key) const { return static_cast<std::uint32_t>(key & ((std::uint64_t{1} << slotBits()) - 1)); }
+};
+
+// All fragments of the pixels of a tile, block by block, layer by layer.
+class FragmentGrid {
+ public:
+  struct Block {
+    std::unique_ptr<std::uint64_t[]> keys;     // [layer][64 pixels]
+    std::uint32_t capacity = 0;                // layers
+    std::uint32_t used = 0;                    // layers that may be in use
+    std::uint32_t counts[kBlockPixels] = {};   // fragments per pixel
+  };
+
+  explicit FragmentGrid(std::size_t budgetBytes) : budgetBytes_(budgetBytes) {}
+
+  void clear();
+  // Makes room for one more layer; false when the budget is spent.
+  bool grow(Block& block);
+  Block& block(int index) { return blocks_[index]; }
+  const Block& block(int index) const { return blocks_[index]; }
+  void setBudget(std::size_t bytes) { budgetBytes_ = bytes; }
+
+ private:
+  Block blocks_[kBlocksPerTile];
+  std::size_t budgetBytes_, usedBytes_ = 0;
+};
+
+// A range of blocks of a tile: [bx0, bx1) × [by0, by1).
+struct BlockRect {
+  int bx0 = 0, by0 = 0, bx1 = kBlocksPerSide, by1 = kBlocksPerSide;
+  int count() const { return (bx1 - bx0) * (by1 - by0); }
+};
+
+// Appends the fragments of the triangles to the grid; blocks with a bit in `finished` are passed over. False when the grid could not grow.
+bool collectFragments(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint32_t finished,
+                      FragmentGrid& grid);
+
+// Sorts each pixel's fragments of a block, front to back.
+void sortBlock(FragmentGrid::Block& block);
+
+// The plain z-buffer: keeps the least key of each pixel, nearest[block][64], which the caller has filled with kEmptyKey.
+void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint64_t* nearest);
+
+// Restricts the targets to those at most as wide as named: "best", "avx2", "sse4", "scalar". For tests; not to be called while drawing.
+void chooseSimd(const char* name);
+
+}  // namespace copeel::cpu

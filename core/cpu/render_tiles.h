@@ -1,0 +1,149 @@
+// The cpu back end's frame: every tile is set up, its fragments collected, sorted and given to a fold, tiles in parallel.
+//
+// Tiles whose fragments outgrow the memory budget are split into blocks of 8×8 pixels; tiles of many triangles are met front to back in
+// growing batches and left as soon as every pixel has had enough. The result does not depend on threads, splits or batches.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "core/cpu/walk.h"
+#include "core/error.h"
+
+namespace copeel::cpu {
+
+struct TileCounts : WalkCounts {
+  std::uint64_t fragments = 0;
+  std::uint64_t depthComplexityMax = 0;
+};
+
+struct TileOptions {
+  std::size_t gridBudgetBytes = std::size_t{16} << 20;   // per thread; a single block may exceed it
+  bool decideAllExactly = false;
+};
+
+inline constexpr std::size_t kFirstBatch = 2048;   // triangles; below it a tile is drawn in one go
+
+// Draws tiles with one fold. Owned by one thread.
+template <Fold F>
+class TileRenderer {
+ public:
+  TileRenderer(const Frame& frame, const TileOptions& options, F fold)
+      : frame_(frame), options_(options), fold_(std::move(fold)), grid_(options.gridBudgetBytes),
+        exact_(frame.scene, frame.planes, frame.depths, frame.view) {}
+
+  void draw(int index) {
+    tile_.begin(frame_, index);
+    if (!fold_.beginTile(tile_)) return;
+    tile_.setUp(frame_, options_.decideAllExactly);
+    drawRect(BlockRect{0, 0, (tile_.width + kBlockSize - 1) / kBlockSize, (tile_.height + kBlockSize - 1) / kBlockSize});
+  }
+  const TileCounts& counts() const { return counts_; }
+  F& fold() { return fold_; }
+
+ private:
+  void drawRect(const BlockRect& rect) {
+    std::fill(std::begin(done_), std::end(done_), 0);
+    finished_ = 0;
+    grid_.clear();
+    grid_.setBudget(rect.count() == 1 ? ~std::size_t{0} : options_.gridBudgetBytes);
+    const std::span<const TriangleSetup> all = tile_.setups;
+    const bool batches = all.size() > kFirstBatch && !fold_.needsWholeStack();
+    if (batches && tile_.nearest.size() != all.size()) tile_.orderByDepth();
+    std::size_t end = batches ? kFirstBatch : all.size();
+    for (std::size_t begin = 0;; begin = end, end = std::min(end * 2, all.size())) {
+      const std::span<const TriangleSetup> batch = std::span<const TriangleSetup>(tile_.setups).subspan(begin, end - begin);
+      if (!collectFragments(batch, tile_.format, rect, finished_, grid_)) return split(rect);
+      const bool last = end == all.size();
+      if (foldRect(rect, last ? ~std::uint64_t{0} : tile_.nearest[end]) || last) break;
+    }
+    for (int b = 0; b < kBlocksPerTile; ++b) {
+      for (std::uint32_t n : grid_.block(b).counts) {
+        counts_.fragments += n;
+        counts_.depthComplexityMax = std::max<std::uint64_t>(counts_.depthComplexityMax, n);
+      }
+    }
+  }
+
+  void split(const BlockRect& rect) {
+    // What the grid could not take is drawn block by block.
+    grid_ = FragmentGrid(options_.gridBudgetBytes);
+    for (int by = rect.by0; by < rect.by1; ++by) {
+      for (int bx = rect.bx0; bx < rect.bx1; ++bx) {
+        drawRect({bx, by, bx + 1, by + 1});
+        grid_ = FragmentGrid(options_.gridBudgetBytes);
+      }
+    }
+  }
+
+  // True when every pixel of the rectangle has had enough.
+  bool foldRect(const BlockRect& rect, std::uint64_t limit) {
+    bool all = true;
+    for (int by = rect.by0; by < rect.by1; ++by) {
+      for (int bx = rect.bx0; bx < rect.bx1; ++bx) {
+        const int b = by * kBlocksPerSide + bx;
+        if (finished_ >> b & 1) continue;
+        if (foldBlock(b, bx * kBlockSize, by * kBlockSize, limit)) finished_ |= 1u << b;
+        else all = false;
+      }
+    }
+    return all;
+  }
+
+  bool foldBlock(int b, int x, int y, std::uint64_t limit) {
+    FragmentGrid::Block& block = grid_.block(b);
+    sortBlock(block);
+    const int columns = std::min(kBlockSize, tile_.width - x), rows = std::min(kBlockSize, tile_.height - y);
+    bool all = true;
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        const int p = row * kBlockSize + column;
+        if (done_[b] >> p & 1) continue;
+        const PixelStack stack{block.keys.get() + p, block.counts[p], kBlockPixels, tile_.format, tile_.slots.data()};
+        const int px = tile_.x0 + x + column, py = tile_.y0 + y + row;
+        if (walkPixel(fold_, stack, tile_.coarse, limit, px, py, exact_, exactStack_, counts_) == Walk::Finished) {
+          fold_.endPixel(px, py);
+          done_[b] |= std::uint64_t{1} << p;
+        } else {
+          all = false;
+        }
+      }
+    }
+    return all;
+  }
+
+  const Frame& frame_;
+  TileOptions options_;
+  F fold_;
+  Tile tile_;
+  FragmentGrid grid_;
+  ExactOrder exact_;
+  ExactStack exactStack_;
+  std::uint64_t done_[kBlocksPerTile] = {};   // pixels, by block
+  std::uint32_t finished_ = 0;                // blocks
+  TileCounts counts_;
+};
+
+// Draws all tiles; `makeFold` is called once per thread. The folds write disjoint pixels.
+template <class MakeFold>
+TileCounts renderTiles(const Frame& frame, const TileOptions& options, MakeFold makeFold) {
+  using F = decltype(makeFold());
+  tbb::enumerable_thread_specific<TileRenderer<F>> renderers([&] { return TileRenderer<F>(frame, options, makeFold()); });
+  tbb::parallel_for(tbb::blocked_range<int>(0, frame.tileCount(), 1), [&](const auto& range) {
+    TileRenderer<F>& renderer = renderers.local();
+    for (int i = range.begin(); i != range.end(); ++i) renderer.draw(i);
+  }, tbb::simple_partitioner());
+  TileCounts total;
+  for (const auto& renderer : renderers) {
+    total.fragments += renderer.counts().fragments;
+    total.depthComplexityMax = std::max(total.depthComplexityMax, renderer.counts().depthComplexityMax);
+    total.decidedExactly += renderer.counts().decidedExactly;
+    total.coplanarPixels += renderer.counts().coplanarPixels;
+  }
+  return total;
+}
+
+}  // namespace copeel::cpu

@@ -1,0 +1,194 @@
+// Tile set-up: exact edge functions, depth functions scaled to keys.
+#include "core/cpu/tile.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include <glm/matrix.hpp>
+
+#include "core/error.h"
+
+namespace copeel::cpu {
+namespace {
+
+constexpr double kBias = 4503599627370496.0;              // 2^52: beyond it a double counts whole numbers
+constexpr double kMostUncertainty = 1125899906842624.0;   // 2^50 key units: nothing is certain
+// Two sums near 2^52 and a clamp round to whole key units.
+constexpr double kKeyRounding = 3;
+
+struct Corners {
+  glm::ivec2 p, q, r;
+};
+
+Corners cornersOf(const Frame& frame, std::uint32_t object, std::uint32_t reference) {
+  if (reference >= kPrimitiveLimit) {
+    const ClippedTriangle& piece = frame.bins.clipped[reference - kPrimitiveLimit];
+    return {piece.corners[0], piece.corners[1], piece.corners[2]};
+  }
+  const glm::uvec3 t = frame.scene.objects()[object].mesh->triangles[reference - frame.scene.firstPrimitive(object)];
+  const glm::ivec2* vertices = frame.projection.vertices.data() + frame.projection.firstVertex[object];
+  return {vertices[t.x], vertices[t.y], vertices[t.z]};
+}
+
+bool mirrors(const glm::dmat4& m) { return glm::determinant(glm::dmat3(m)) < 0; }
+
+}  // namespace
+
+Frame::Frame(const Scene& scene_, const PlaneClasses& planes_, const View& view_)
+    : scene(scene_), planes(planes_), view(view_), depths(depthPlanes(scene_, planes_, view_)),
+      projection(project(scene_, view_)), bins(binTriangles(scene_, view_, projection)) {}
+
+void Tile::begin(const Frame& frame, int index) {
+  x0 = index % frame.bins.columns * kTileSize;
+  y0 = index / frame.bins.columns * kTileSize;
+  width = std::min(kTileSize, frame.view.width - x0);
+  height = std::min(kTileSize, frame.view.height - y0);
+  references_ = frame.bins.tile(index);
+  objects.clear();
+  slots.clear();
+  setups.clear();
+  nearest.clear();
+  std::uint32_t end = 0;   // first primitive after the current object
+  for (std::uint32_t i = 0; i < references_.size(); ++i) {
+    const std::uint32_t reference = references_[i];
+    const std::uint32_t primitive =
+        reference < kPrimitiveLimit ? reference : frame.bins.clipped[reference - kPrimitiveLimit].primitive;
+    if (primitive >= end) {
+      const std::uint32_t object = frame.scene.objectOf(primitive);
+      end = object + 1 < frame.scene.objects().size() ? frame.scene.firstPrimitive(object + 1) : kPrimitiveLimit;
+      objects.push_back({object, i, i});
+    }
+    objects.back().lastReference = i + 1;
+  }
+}
+
+void Tile::setUp(const Frame& frame, bool decideAllExactly) {
+  least_ = std::numeric_limits<double>::infinity();
+  most_ = -least_;
+  for (std::uint32_t i = 0; i < objects.size(); ++i) {
+    if (!objects[i].keep) continue;
+    const std::size_t first = slots.size();
+    for (std::uint32_t k = objects[i].firstReference; k < objects[i].lastReference; ++k) {
+      addTriangle(frame, objects[i], i, references_[k]);
+    }
+    if (slots.size() > first && mirrors(frame.scene.objects()[objects[i].object].worldFromObject)) {
+      for (std::size_t s = first; s < slots.size(); ++s) slots[s].side = -slots[s].side;
+    }
+  }
+  scaleDepths(frame, decideAllExactly);
+}
+
+void Tile::addTriangle(const Frame& frame, const TileObject& object, std::uint32_t objectIndex, std::uint32_t reference) {
+  auto [p, q, r] = cornersOf(frame, object.object, reference);
+  const std::int64_t area = std::int64_t{q.x - p.x} * (r.y - p.y) - std::int64_t{q.y - p.y} * (r.x - p.x);
+  if (area < 0) std::swap(q, r);
+  const int bits = frame.projection.grid.bits;
+  const int round = (1 << bits) - 1;
+  const glm::ivec2 origin(x0 << bits, y0 << bits);
+
+  // Samples that the bounds leave, within the tile.
+  TriangleSetup t;
+  const int left = std::max(((std::min({p.x, q.x, r.x}) + round) >> bits) - x0, 0);
+  const int top = std::max(((std::min({p.y, q.y, r.y}) + round) >> bits) - y0, 0);
+  const int right = std::min((std::max({p.x, q.x, r.x}) >> bits) - x0, width - 1);
+  const int bottom = std::min((std::max({p.y, q.y, r.y}) >> bits) - y0, height - 1);
+  if (left > right || top > bottom) return;
+  t.x0 = left, t.y0 = top, t.x1 = right, t.y1 = bottom;
+
+  // Edge functions at samples are whole numbers of 2^bits plus a constant: their floor has the same sign. An edge that holds the whole of the
+  // bounds on its inner side is dropped.
+  const glm::ivec2 corners[4] = {p, q, r, p};
+  for (int i = 0; i < 3; ++i) {
+    const glm::ivec2 from = corners[i], to = corners[i + 1];
+    const std::int64_t a = from.y - to.y, b = to.x - from.x;
+    const bool owns = a > 0 || (a == 0 && b > 0);   // the top-left rule: a sample on an edge belongs to one side only
+    const std::int64_t c = (a * (origin.x - from.x) + b * (origin.y - from.y) - (owns ? 0 : 1)) >> bits;
+    const std::int64_t largest = c + a * (a > 0 ? right : left) + b * (b > 0 ? bottom : top);
+    const std::int64_t smallest = c + a * (a > 0 ? left : right) + b * (b > 0 ? top : bottom);
+    if (largest < 0) return;
+    const bool needed = smallest < 0;
+    t.a[i] = needed ? static_cast<std::int32_t>(a) : 0;
+    t.b[i] = needed ? static_cast<std::int32_t>(b) : 0;
+    t.c[i] = needed ? static_cast<std::int32_t>(c) : 0;
+  }
+
+  const std::uint32_t primitive =
+      reference < kPrimitiveLimit ? reference : frame.bins.clipped[reference - kPrimitiveLimit].primitive;
+  const std::uint32_t local = primitive - frame.scene.firstPrimitive(object.object);
+  const std::uint32_t planeClass =
+      frame.planes.classOf(object.object, frame.scene.objects()[object.object].mesh->facetOf(local));
+  const DepthPlane& plane = frame.depths[planeClass];
+  const double u = x0 + 0.5 + frame.view.offset.x - frame.view.width * 0.5;
+  const double v = y0 + 0.5 + frame.view.offset.y - frame.view.height * 0.5;
+  t.slot = static_cast<std::uint32_t>(slots.size());
+  t.da = plane.a;
+  t.db = plane.b;
+  t.dc = plane.a * u + (plane.b * v + plane.c);
+  t.lo = plane.lo;
+  t.hi = plane.hi;
+  const double small = t.dc + std::min(t.da * left, t.da * right) + std::min(t.db * top, t.db * bottom);
+  const double large = t.dc + std::max(t.da * left, t.da * right) + std::max(t.db * top, t.db * bottom);
+  least_ = std::min(least_, std::clamp(small, t.lo, t.hi));
+  most_ = std::max(most_, std::clamp(large, t.lo, t.hi));
+  setups.push_back(t);
+  slots.push_back({primitive, planeClass, objectIndex, area < 0 ? 1 : -1, 0});
+}
+
+void Tile::scaleDepths(const Frame& frame, bool decideAllExactly) {
+  const int slotBits = std::max(static_cast<int>(std::bit_width(slots.size())), kKeyBits - kMostDepthBits);
+  format.depthBits = kKeyBits - slotBits;
+  // A margin of 2^-8 of the range at both ends takes the rounding.
+  const double units = std::ldexp(1.0, format.depthBits), margin = units / 256;
+  const double range = most_ - least_;
+  const double scale = range > 0 ? std::min((units - 2 * margin) / range, 1e200) : 1.0;
+  const double shift = kBias + margin;
+  for (std::size_t i = 0; i < setups.size(); ++i) {
+    TriangleSetup& t = setups[i];
+    t.da *= scale;
+    t.db *= scale;
+    t.dc = (t.dc - least_) * scale + shift;
+    t.lo = std::max((t.lo - least_) * scale, -margin) + shift;
+    t.hi = std::min((t.hi - least_) * scale, units - 2 * margin) + shift;
+    const double error = double(frame.depths[slots[i].planeClass].error) * scale * 1.25 + kKeyRounding;
+    const double bound = decideAllExactly ? kMostUncertainty : std::min(std::ceil(error), kMostUncertainty);
+    slots[i].uncertainty = static_cast<std::uint64_t>(bound);
+  }
+  // One bound for all but the coarse: then a gap between neighbours in sorted order parts everything before from everything after.
+  std::uint64_t common = 0;
+  coarse = false;
+  for (const TileSlot& slot : slots) {
+    coarse |= slot.uncertainty > kCoarse;
+    if (slot.uncertainty <= kCoarse) common = std::max(common, slot.uncertainty);
+  }
+  for (TileSlot& slot : slots) slot.uncertainty = std::max(slot.uncertainty, common);
+}
+
+void Tile::orderByDepth() {
+  struct Order {
+    std::uint64_t depth;
+    std::uint32_t setup;
+  };
+  std::vector<Order> order;
+  order.reserve(setups.size());
+  for (const TriangleSetup& t : setups) {
+    const double least = t.dc + std::min(t.da * t.x0, t.da * t.x1) + std::min(t.db * t.y0, t.db * t.y1);
+    const auto depth = static_cast<std::uint64_t>(std::clamp(least, t.lo, t.hi) - kBias);
+    const std::uint64_t uncertainty = slots[t.slot].uncertainty + 2;
+    order.push_back({depth > uncertainty ? depth - uncertainty : 0, t.slot});
+  }
+  std::sort(order.begin(), order.end(), [](const Order& a, const Order& b) {
+    return a.depth != b.depth ? a.depth < b.depth : a.setup < b.setup;
+  });
+  std::vector<TriangleSetup> sorted;
+  sorted.reserve(setups.size());
+  nearest.clear();
+  for (const Order& o : order) {
+    sorted.push_back(setups[o.setup]);
+    nearest.push_back(o.depth);
+  }
+  setups = std::move(sorted);
+}
+
+}  // namespace copeel::cpu

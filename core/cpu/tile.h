@@ -1,0 +1,56 @@
+// A tile: the triangles that touch it, set up for the kernels. Its depth keys span just the depths that occur in it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/cpu/frame.h"
+#include "core/cpu/kernels.h"
+
+namespace copeel::cpu {
+
+// What a fold may want to know of a triangle.
+struct TileSlot {
+  std::uint32_t primitive;
+  std::uint32_t planeClass;
+  std::uint32_t object;          // index into Tile::objects
+  std::int32_t side;             // +1 entered here (front-facing), -1 left here
+  std::uint64_t uncertainty;     // bound of the depth error, key units
+};
+
+struct TileObject {
+  std::uint32_t object;                     // of the scene
+  std::uint32_t firstReference, lastReference;
+  bool keep = true;                         // cleared by a fold that has no use for the object in this tile
+};
+
+class Tile {
+ public:
+  // Finds the objects that touch a tile. O(references).
+  void begin(const Frame& frame, int index);
+  // Sets the triangles of the kept objects up.
+  void setUp(const Frame& frame, bool decideAllExactly);
+  // Orders the setups by nearest depth, so that they can be met front to back.
+  void orderByDepth();
+
+  int x0 = 0, y0 = 0;                       // of its first pixel
+  int width = 0, height = 0;                // inside the image
+  std::vector<TileObject> objects;          // ascending
+  std::vector<TileSlot> slots;              // ascending by primitive
+  std::vector<TriangleSetup> setups;
+  std::vector<std::uint64_t> nearest;       // after orderByDepth: least certain depth of each setup and all after it
+  KeyFormat format;
+  bool coarse = false;                      // some slot is so uncertain that its neighbours in depth order may not be adjacent
+
+  static constexpr std::uint64_t kCoarse = 4096;   // key units; below, all slots of a tile carry one common bound
+
+ private:
+  void addTriangle(const Frame& frame, const TileObject& object, std::uint32_t objectIndex, std::uint32_t reference);
+  void scaleDepths(const Frame& frame, bool decideAllExactly);
+
+  std::span<const std::uint32_t> references_;
+  double least_ = 0, most_ = 0;             // order values in the tile
+};
+
+}  // namespace copeel::cpu

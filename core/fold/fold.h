@@ -1,0 +1,38 @@
+// What an application makes of a pixel. A fold is given the fragments of a pixel front to back, is told when a coplanar group is complete,
+// and may say "enough". One fold object serves one thread.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+
+#include "core/cpu/tile.h"
+
+namespace copeel {
+
+// The ordered fragments of a pixel, for folds that must look at all of them first.
+struct PixelStack {
+  const std::uint64_t* keys;
+  std::uint32_t count;
+  std::uint32_t stride;
+  cpu::KeyFormat format;
+  const cpu::TileSlot* slots;
+
+  std::uint64_t key(std::uint32_t i) const { return keys[std::size_t{i} * stride]; }
+  std::uint32_t slot(std::uint32_t i) const { return format.slotOf(key(i)); }
+};
+
+template <class F>
+concept Fold = requires(F fold, cpu::Tile& tile, const PixelStack& stack, std::uint32_t slot, int x, int y) {
+  // Looks at the tile's objects, may drop some; false: no pixel of the tile shows anything.
+  { fold.beginTile(tile) } -> std::same_as<bool>;
+  // True when the tile's pixels need their whole stack before they start.
+  { fold.needsWholeStack() } -> std::same_as<bool>;
+  fold.beginPixel(stack);
+  fold.fragment(slot);
+  // The fragments since the last call lie at one depth. True: enough, nothing behind matters.
+  { fold.closeGroup() } -> std::same_as<bool>;
+  { fold.enough() } -> std::same_as<bool>;  // what closeGroup said last
+  fold.endPixel(x, y);                      // image coordinates
+};
+
+}  // namespace copeel

@@ -1,0 +1,32 @@
+// Scene: numbering of primitives and the world bounds.
+#include "core/scene/scene.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace copeel {
+
+Scene::Scene(std::vector<Object> objects) : objects_(std::move(objects)) {
+  std::uint64_t count = 0;
+  firstPrimitive_.reserve(objects_.size() + 1);
+  for (const Object& object : objects_) {
+    count += object.mesh->triangles.size();
+    if (count >= kPrimitiveLimit) failMachine("the scene has more than {} triangles", kPrimitiveLimit);
+    firstPrimitive_.push_back(static_cast<std::uint32_t>(count));
+    for (const glm::uvec3& t : object.mesh->triangles) {
+      for (int k = 0; k < 3; ++k) bounds_.add(transformPoint(object.worldFromObject, object.mesh->vertices[t[k]]));
+    }
+  }
+}
+
+std::uint32_t Scene::objectOf(std::uint32_t primitive) const {
+  const auto next = std::upper_bound(firstPrimitive_.begin(), firstPrimitive_.end(), primitive);
+  return static_cast<std::uint32_t>(next - firstPrimitive_.begin() - 1);
+}
+
+glm::dvec3 Scene::worldVertex(std::uint32_t object, std::uint32_t vertex) const {
+  return transformPoint(objects_[object].worldFromObject, objects_[object].mesh->vertices[vertex]);
+}
+
+}  // namespace copeel
