@@ -43,6 +43,7 @@ class CsgFold {
 
   bool beginTile(cpu::Tile& tile);
   bool needsWholeStack() const { return tileNeedsStack_; }
+  double leastFragments() const { return pruned_.leastEntries(); }
   void beginPixel(const PixelStack& stack);
   void fragment(std::uint32_t slot) {
     if (groupCount_ == group_.size()) group_.resize(group_.size() * 2);
