@@ -15,7 +15,7 @@ Mesh tetrahedron() {
   return mesh;
 }
 
-void append(Mesh& mesh, const Mesh& other) {
+void append(Mesh& mesh, Mesh other) {   // by value: a mesh may be appended to itself
   const auto shift = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
   for (const glm::uvec3& t : other.triangles) mesh.triangles.push_back(t + shift);
