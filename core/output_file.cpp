@@ -75,6 +75,12 @@ std::string folderOf(const std::string& path) {
 
 OutputFile::OutputFile(const std::string& path) : path_(path), target_(resolved(path)) {
   if (path.empty()) fail(ENOENT);
+  // Through the open descriptor: where standard output is a file, that file may be a log that others write to, and is no target to replace.
+  if (path == "/dev/stdout" || path == "/dev/stderr") {
+    descriptor_ = ::fcntl(path == "/dev/stdout" ? STDOUT_FILENO : STDERR_FILENO, F_DUPFD_CLOEXEC, 0);
+    if (descriptor_ < 0) fail(errno);
+    return;
+  }
   struct stat status {};
   const bool exists = ::stat(target_.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) fail(EISDIR);

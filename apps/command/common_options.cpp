@@ -10,6 +10,7 @@
 #include "apps/command/outputs.h"
 #include "apps/command/parse_values.h"
 #include "core/error.h"
+#include "core/methods/method.h"
 
 namespace copeel {
 namespace {
@@ -77,7 +78,10 @@ void addCommonOptions(CLI::App& command, CommonOptions& options) {
   addFileOptions(command, options);
   addCameraOptions(command, options.camera);
   addWord(command, "--backend", options.backend, "cpu|gl|auto", "where to draw (auto)");
-  command.add_option("--method", options.method, "how fragments are ordered: see copeel methods (auto)")->type_name("NAME");
+  addParsed(command, "--method", "NAME", "how fragments are ordered: see copeel methods (auto)", [&options](const std::string& text) {
+    if (text != "auto" && !findMethod(text)) failUsage("no method '{}' (see copeel methods)", text);
+    options.method = text;
+  });
   addWhole(command, "--threads", options.threads, 1, kMaxThreads, "how many threads (all cores)");
   addParsed(command, "--memory", "BYTES", "the most data memory while drawing, such as 512M or 2G",
             [&options](const std::string& text) { options.memoryBytes = parseBytes(text, "--memory"); });

@@ -3,32 +3,45 @@
 #include <algorithm>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/methods/method.h"
+
 namespace copeel {
 namespace {
 
-struct Row {
-  std::string name, backend, summary;
-};
-
-std::vector<Row> rows() {
-  return {{"tile", "cpu", "every fragment of a screen tile, sorted there; exact order"},
-          {"zbuffer", "cpu", "the nearest fragment only, for comparison; knows no CSG"}};
-}
-
+// Columns as wide as their widest entry.
 void printTable() {
-  fmt::print("{:<12} {:<8} {}\n", "method", "backend", "what it does");
-  for (const Row& row : rows()) fmt::print("{:<12} {:<8} {}\n", row.name, row.backend, row.summary);
+  constexpr std::string_view MethodInfo::*kColumns[] = {&MethodInfo::name, &MethodInfo::backend, &MethodInfo::robustness, &MethodInfo::passes,
+                                                        &MethodInfo::memory, &MethodInfo::title, &MethodInfo::source};
+  constexpr std::string_view kHeads[] = {"method", "backend", "R_h", "passes", "memory", "what it is", "source"};
+  for (std::size_t row = 0; row <= methods().size(); ++row) {
+    std::string line;
+    for (std::size_t column = 0; column < std::size(kColumns); ++column) {
+      std::size_t width = kHeads[column].size();
+      for (const MethodInfo& method : methods()) width = std::max(width, (method.*kColumns[column]).size());
+      line += fmt::format("{:<{}}  ", row == 0 ? kHeads[column] : methods()[row - 1].*kColumns[column], width);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    fmt::print("{}\n", line);
+  }
 }
 
 void printJson() {
-  nlohmann::json list = nlohmann::json::array();
-  for (const Row& row : rows()) list.push_back({{"name", row.name}, {"backend", row.backend}, {"summary", row.summary}});
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const MethodInfo& method : methods()) {
+    list.push_back({{"name", method.name},
+                    {"backend", method.backend},
+                    {"robust", method.robust},
+                    {"rh", method.robustness},
+                    {"passes", method.passes},
+                    {"memory", method.memory},
+                    {"title", method.title},
+                    {"source", method.source}});
+  }
   fmt::print("{}\n", list.dump(2));
 }
 

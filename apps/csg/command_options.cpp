@@ -11,11 +11,14 @@
 namespace copeel::csg {
 namespace {
 
-// "x=10".
+// "x=10" cuts away what lies beyond, "-x=10" what lies before.
 Section parseSection(const std::string& text) {
-  const auto axis = text.size() >= 3 && text[1] == '=' ? std::string_view("xyz").find(text[0]) : std::string_view::npos;
-  if (axis == std::string_view::npos) failUsage("--section takes x=NUMBER, y=NUMBER or z=NUMBER, not '{}'", text);
-  return {static_cast<int>(axis), parseNumber(std::string_view(text).substr(2), "--section")};
+  std::string_view rest = text;
+  const bool below = rest.starts_with('-');
+  if (below) rest.remove_prefix(1);
+  const auto axis = rest.size() >= 3 && rest[1] == '=' ? std::string_view("xyz").find(rest[0]) : std::string_view::npos;
+  if (axis == std::string_view::npos) failUsage("--section takes x=NUMBER, y=NUMBER or z=NUMBER, or -x=NUMBER and so on, not '{}'", text);
+  return {static_cast<int>(axis), parseNumber(rest.substr(2), "--section"), below};
 }
 
 InsideRule parseInside(const std::string& text) {
@@ -47,7 +50,7 @@ void addOptions(CLI::App& command, CommandOptions& options) {
     if (text.find('=') == std::string::npos || text.front() == '=') failUsage("-D takes NAME=VALUE, not '{}'", text);
     options.definitions.push_back(text);
   });
-  addRepeatable(command, "--section", "AXIS=NUMBER", "cuts away what lies beyond, as in x=10, and shows the cut",
+  addRepeatable(command, "--section", "AXIS=NUMBER", "cuts away what lies beyond x=10, or before it: -x=10, and shows the cut",
                 [&options](const std::string& text) { options.sections.push_back(parseSection(text)); });
   command.add_option_function<std::string>("--inside", [&options](const std::string& text) { options.inside = parseInside(text); },
                                            "which winding numbers of a leaf are inside it (nonzero)")

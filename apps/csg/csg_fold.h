@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "apps/csg/eye_winding.h"
@@ -42,22 +43,45 @@ class CsgFold {
 
   bool beginTile(cpu::Tile& tile);
   bool needsWholeStack() const { return tileNeedsStack_; }
+  double leastFragments() const { return pruned_.leastEntries(); }
   void beginPixel(const PixelStack& stack);
-  void fragment(std::uint32_t slot) { group_.push_back(slot); }
+  void fragment(std::uint32_t slot) {
+    if (groupCount_ == group_.size()) group_.resize(group_.size() * 2);
+    group_[groupCount_++] = slot;
+  }
   bool closeGroup();
   bool enough() const { return enough_; }
   void endPixel(int x, int y) { sink_.pixel(x, y, surfaces_); }
 
  private:
+  // A gate of the tile while a pixel is walked.
+  struct Gate {
+    std::int32_t lacking;      // true inputs to come before it is true; not positive: it is
+    std::uint32_t parent;
+    std::uint32_t output;
+    bool negated;              // seen by the parent
+    bool isTrue() const { return lacking <= 0; }
+  };
+  // A leaf, with its first use at hand: nearly all leaves have just one.
+  struct LeafState {
+    std::int32_t winding;
+    std::uint32_t gate;        // kNone: the leaf does not matter
+    bool negated;
+    bool hasMoreUses;
+  };
+
   bool inside(std::int32_t winding) const {
     return rule_ == InsideRule::NonZero ? winding != 0 : rule_ == InsideRule::Positive ? winding > 0 : (winding & 1) != 0;
   }
-  bool nodeTrue(std::uint32_t node) const { return counts_[node] >= nodes_[node].threshold; }
-  void addWinding(std::uint32_t local, std::int32_t change);
-  void toggle(std::uint32_t local, bool nowInside);
-  void showSurface(std::uint32_t output);
+  void listLeaves(const cpu::Tile& tile);
+  void setInitialState();
+  void startInsideStack(const PixelStack& stack);
+  void addWinding(std::uint32_t leaf, std::int32_t change);
+  void climb(std::uint32_t gate, bool value);
+  void showRisen();
+  void showSurface(std::uint32_t output, std::uint32_t slot);
   std::uint32_t showingFace(std::uint32_t output);
-  bool bringsChange(std::uint32_t local, std::uint32_t output) const;
+  bool bringsChange(std::uint32_t leaf, std::uint32_t output) const;
 
   const GateForest& forest_;
   const EyeWinding& eye_;
@@ -66,21 +90,22 @@ class CsgFold {
   const void* context_;
   PixelSink& sink_;
 
-  // Of the tile.
+  // Of the tile. Leaves are numbered as the tile's objects, then come the open leaves around the eye that have no triangle here.
   PrunedForest pruned_;
-  std::span<const PrunedForest::Node> nodes_;
   const cpu::TileSlot* slots_ = nullptr;
-  std::vector<std::uint32_t> leaves_;          // local to scene
-  std::vector<std::uint32_t> localOfObject_;   // of the tile's objects, which are fewer when an open leaf around the eye has no triangle here
-  std::vector<std::uint32_t> topOfOutput_;     // node, or kNone
-  std::vector<std::int32_t> initialCounts_;
-  std::vector<std::int32_t> initialWinding_;
+  std::vector<std::uint32_t> leaves_;
+  std::vector<std::uint32_t> topOfOutput_;     // gate, or kNone
+  std::vector<Gate> initialGates_;
+  std::vector<LeafState> initialStates_;
   bool tileNeedsStack_ = false;
 
   // Of the pixel.
-  std::vector<std::int32_t> winding_, counts_;
-  std::vector<std::uint32_t> group_;           // slots
-  std::vector<std::int32_t> before_;           // counts before a group of several fragments
+  bool dirty_ = true;                          // the state differs from the initial one
+  std::vector<LeafState> states_;              // per leaf
+  std::vector<Gate> gates_;
+  std::vector<std::uint32_t> group_ = std::vector<std::uint32_t>(64);   // slots
+  std::size_t groupCount_ = 0;
+  std::vector<Gate> before_;                   // gates before a group of several fragments
   std::vector<std::int32_t> change_;           // of each leaf's winding in the group, only while a face is sought
   std::vector<std::uint32_t> risen_;           // outputs that became true in the group
   std::vector<Surface> surfaces_;

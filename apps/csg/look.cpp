@@ -18,8 +18,13 @@ glm::dvec3 toVector(const std::array<double, 3>& c) { return {c[0], c[1], c[2]};
 
 }  // namespace
 
-Look::Look(const Model& model, const GateForest& forest, const RenderOptions& options)
-    : model_(model), forest_(forest), options_(options) {}
+Look::Look(const Model& model, const GateForest& forest, const RenderOptions& options) : model_(model), options_(options) {
+  for (std::size_t leaf = 0; leaf < forest.cuts.size(); ++leaf) {
+    const bool colored = leaf < model.leaves.size() && model.leaves[leaf].color;
+    const glm::dvec4 own = colored ? *model.leaves[leaf].color * glm::dvec4(255, 255, 255, 1) : glm::dvec4(0);
+    leafColors_.push_back(colored ? own : glm::dvec4(toVector(forest.cuts[leaf] ? options.scheme.cutout : options.scheme.front), 1));
+  }
+}
 
 void Look::setView(const PlaneClasses& planes, const View& view) {
   const glm::dvec3 right = glm::normalize(view.right), up = -glm::normalize(view.down);
@@ -31,19 +36,8 @@ void Look::setView(const PlaneClasses& planes, const View& view) {
   }
 }
 
-glm::dvec4 Look::colorOf(std::uint32_t leaf, std::uint32_t part) const {
-  if (part > 0) return part <= model_.background.size() ? kBackgroundPart : kHighlightPart;
-  if (leaf < model_.leaves.size() && model_.leaves[leaf].color) {
-    const glm::dvec4 c = *model_.leaves[leaf].color;
-    return {c.r * 255, c.g * 255, c.b * 255, c.a};
-  }
-  return {toVector(forest_.cuts[leaf] ? options_.scheme.cutout : options_.scheme.front), 1.0};
-}
-
-double Look::alpha(std::uint32_t leaf, std::uint32_t part) const { return colorOf(leaf, part).a; }
-
-bool Look::translucent(std::uint32_t leaf) const {
-  return leaf < model_.leaves.size() && model_.leaves[leaf].color && model_.leaves[leaf].color->a < 1;
+glm::dvec4 Look::overlayColor(std::uint32_t part) const {
+  return part <= model_.background.size() ? kBackgroundPart : kHighlightPart;
 }
 
 glm::dvec3 Look::blend(const std::vector<Surface>& frontToBack) const {

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include <glm/vec4.hpp>
+
 #include "apps/csg/csg_fold.h"
 #include "core/coplanarity/plane_classes.h"
 
@@ -13,18 +15,17 @@ class Look {
   Look(const Model& model, const GateForest& forest, const RenderOptions& options);
 
   void setView(const PlaneClasses& planes, const View& view);   // shades each plane class once
-  double alpha(std::uint32_t leaf, std::uint32_t part) const;
-  bool translucent(std::uint32_t leaf) const;
+  double alpha(std::uint32_t leaf, std::uint32_t part) const { return colorOf(leaf, part).a; }
   glm::dvec3 blend(const std::vector<Surface>& frontToBack) const;   // 0 … 255, over the background
-  const ColorScheme& scheme() const { return options_.scheme; }
 
  private:
-  glm::dvec4 colorOf(std::uint32_t leaf, std::uint32_t part) const;
+  glm::dvec4 colorOf(std::uint32_t leaf, std::uint32_t part) const { return part == 0 ? leafColors_[leaf] : overlayColor(part); }
+  glm::dvec4 overlayColor(std::uint32_t part) const;
 
   const Model& model_;
-  const GateForest& forest_;
   const RenderOptions& options_;
-  std::vector<float> shade_;
+  std::vector<glm::dvec4> leafColors_;   // 0 … 255 and alpha, as parts of the solid
+  std::vector<float> shade_;             // per plane class
 };
 
 }  // namespace copeel::csg

@@ -135,6 +135,7 @@ void Renderer::State::drawTiles(const cpu::Frame& frame, PixelSink& sink) {
       frame, tileOptions, [&] { return CsgFold(forest, eye, options.inside, alpha, look.get(), sink); });
   stats.fragments = stats.fragmentsCaptured = counts.fragments;
   stats.depthComplexityMax = counts.depthComplexityMax;
+  stats.coveredPixels = counts.coveredPixels;
   stats.coplanarPixels = counts.coplanarPixels;
   stats.decidedExactly = counts.decidedExactly;
 }
@@ -174,7 +175,7 @@ class FrameSink : public PixelSink {
     if (!frame_.depth.pixels.empty()) frame_.depth.at(x, y) = depthAt(solid->planeClass, x, y);
   }
   static Rgb8 toRgb8(const glm::dvec3& color) {
-    const auto byte = [](double v) { return static_cast<std::uint8_t>(std::clamp(std::lround(v), 0l, 255l)); };
+    const auto byte = [](double v) { return static_cast<std::uint8_t>(std::clamp(v, 0.0, 255.0) + 0.5); };
     return {byte(color.r), byte(color.g), byte(color.b)};
   }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -23,13 +24,24 @@ constexpr double kDoubleUlps = 16;             // least tolerance: two products 
 constexpr double kMarginPerTolerance = 1e3;
 constexpr double kCellPerMargin = 10;
 constexpr double kLargestCell = 0.05;
+constexpr std::size_t kBlock = 8192;   // facets measured at a time
+
+// What sorting needs of a placed facet: 20 bytes, as there is one for every triangle of a soup.
+struct FacetKey {
+  float area = 0;               // of its largest triangle, doubled
+  std::uint32_t tie = 0;        // hash of the plane: facets of equal area fall in an order of geometry, not of input
+  std::uint32_t object = 0, facet = 0, triangle = 0;
+};
 
 struct Facet {
-  double area = 0;              // of its largest triangle, doubled
+  FacetKey key;
   glm::dvec3 normal{0, 0, 1};   // unit, turned into the half-space of kHalf
+  glm::dvec3 point{0};          // the first corner of its largest triangle
   double offset = 0;            // of the plane from the scene's centre, in diagonals
-  float normalError = 0;
-  std::uint32_t object = 0, facet = 0, triangle = 0;
+  double error = 0;             // bound of |normal - true normal|
+  double flatness = 0;          // largest distance of a corner from the facet's own plane
+  double radius = 0;            // largest distance of a corner from `point`
+  Box box;
 };
 
 // No plane of practice is orthogonal to this direction, so that the sign of a normal is stable under rounding.
@@ -68,55 +80,56 @@ glm::dvec3 needleNormal(const glm::dvec3& p, const glm::dvec3& q, const glm::dve
   return length > 0 && std::isfinite(length) ? normal / length : glm::dvec3(0, 0, 1);
 }
 
-// Plane and its error bound from the facet's largest triangle.
-void measure(const Scene& scene, Facet& facet, FacetRange range, const glm::dvec3& center, double diagonal) {
-  glm::dvec3 p{0}, sum{0};
+// The facet's largest triangle, its plane and extent.
+Facet measure(const Scene& scene, std::uint32_t object, std::uint32_t facet, FacetRange range) {
+  Facet result;
+  result.key.object = object, result.key.facet = facet;
+  const Object& placed = scene.objects()[object];
+  const auto corner = [&](std::uint32_t triangle, int k) {
+    return transformPoint(placed.worldFromObject, placed.mesh->vertices[placed.mesh->triangles[triangle][k]]);
+  };
   double best = -1, magnitude = 0;
+  glm::dvec3 normal{0}, second{0}, third{0};
   for (std::uint32_t t = range.begin; t < range.end; ++t) {
-    const glm::uvec3 v = scene.objects()[facet.object].mesh->triangles[t];
-    const glm::dvec3 a = scene.worldVertex(facet.object, v.x);
-    const glm::dvec3 e = scene.worldVertex(facet.object, v.y) - a;
-    const glm::dvec3 f = scene.worldVertex(facet.object, v.z) - a;
-    const glm::dvec3 n = glm::cross(e, f);
+    const glm::dvec3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
+    result.box.add(a), result.box.add(b), result.box.add(c);
+    const glm::dvec3 n = glm::cross(b - a, c - a);
     const double area = glm::length(n);
     if (!(area > best)) continue;
-    best = area, p = a, sum = n, facet.triangle = t;
-    magnitude = glm::length(e) * glm::length(f);
+    best = area, normal = n, result.point = a, second = b, third = c, result.key.triangle = t;
+    magnitude = glm::length(b - a) * glm::length(c - a);
   }
-  facet.area = best;
-  // Each component of the cross product carries four roundings of products no larger than |e||f|.
+  // Each component of the cross product carries four roundings of products no larger than the two edges'.
   const double error = best > 0 ? 8 * kEps * magnitude / best : 1.0;
-  if (error < 0.25) {
-    facet.normal = sum / best;
-  } else {
-    const glm::uvec3 v = scene.objects()[facet.object].mesh->triangles[facet.triangle];
-    facet.normal = needleNormal(p, scene.worldVertex(facet.object, v.y), scene.worldVertex(facet.object, v.z));
+  result.normal = error < 0.25 ? normal / best : needleNormal(result.point, second, third);
+  if (glm::dot(result.normal, kHalf) < 0) result.normal = -result.normal;
+  result.error = std::min(error * 1.001 + 4 * kEps, 1.0);
+  result.key.area = static_cast<float>(best);
+  for (std::uint32_t t = range.begin; t < range.end; ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec3 away = corner(t, k) - result.point;
+      result.flatness = std::max(result.flatness, std::abs(glm::dot(result.normal, away)));
+      result.radius = std::max(result.radius, glm::length(away));
+    }
   }
-  if (glm::dot(facet.normal, kHalf) < 0) facet.normal = -facet.normal;
-  facet.normalError = static_cast<float>(std::min(error * 1.001 + 4 * kEps, 1.0));
-  facet.offset = diagonal > 0 ? glm::dot(facet.normal, p - center) / diagonal : 0.0;
+  return result;
 }
 
-using Cell = std::array<std::int64_t, 4>;
-struct CellHash {
-  std::size_t operator()(const Cell& c) const {
-    std::uint64_t h = 0x9E3779B97F4A7C15ull;
-    for (std::int64_t v : c) h = (h ^ static_cast<std::uint64_t>(v)) * 0xD6E8FEB86659FD93ull, h ^= h >> 32;
-    return h;
-  }
-};
+std::uint32_t hashOf(const glm::dvec3& normal, double offset) {
+  std::uint64_t h = 0x9E3779B97F4A7C15ull;
+  for (double v : {normal.x, normal.y, normal.z, offset}) h = (h ^ std::bit_cast<std::uint64_t>(v + 0.0)) * 0xD6E8FEB86659FD93ull, h ^= h >> 32;
+  return static_cast<std::uint32_t>(h);
+}
 
-// Classes by cell of (normal, offset). Chains are threaded through `next`, so that a cell costs one map entry.
+// Classes by cell of (normal, offset). A bucket of the table holds the cells that hash to it; chains are threaded through `next_`.
 class ClassIndex {
  public:
-  ClassIndex(double margin, std::size_t expected) : cell_(std::min(margin * kCellPerMargin, kLargestCell)), margin_(margin / cell_) {
-    heads_.reserve(expected);
-  }
+  ClassIndex(double margin, std::size_t expected)
+      : cell_(std::min(margin * kCellPerMargin, kLargestCell)), margin_(margin / cell_), heads_(std::bit_ceil(expected * 2 + 1), kEnd) {}
 
   void insert(const Facet& facet, std::uint32_t planeClass) {
-    if (next_.size() <= planeClass) next_.resize(planeClass + 1, kEnd);
-    auto [head, fresh] = heads_.try_emplace(cellOf(facet.normal, facet.offset), planeClass);
-    if (!fresh) next_[planeClass] = std::exchange(head->second, planeClass);
+    next_.resize(planeClass + 1, kEnd);
+    next_[planeClass] = std::exchange(heads_[bucketOf(cellOf(facet.normal, facet.offset))], planeClass);
   }
 
   // The first class for which `accept` holds among those whose plane may agree; kEnd if none.
@@ -131,32 +144,29 @@ class ClassIndex {
   static constexpr std::uint32_t kEnd = ~std::uint32_t{0};
 
  private:
+  using Cell = std::array<double, 4>;   // whole numbers
+
   Cell cellOf(const glm::dvec3& n, double offset) const {
-    return {std::llround(n.x / cell_), std::llround(n.y / cell_), std::llround(n.z / cell_), std::llround(offset / cell_)};
+    return {std::rint(n.x / cell_), std::rint(n.y / cell_), std::rint(n.z / cell_), std::rint(offset / cell_)};
   }
+  std::size_t bucketOf(const Cell& cell) const { return hashOf({cell[0], cell[1], cell[2]}, cell[3]) & (heads_.size() - 1); }
 
   template <class Accept>
   std::uint32_t search(const glm::dvec3& n, double offset, Accept accept) const {
     const double at[4] = {n.x / cell_, n.y / cell_, n.z / cell_, offset / cell_};
     const Cell home = cellOf(n, offset);
     // A coordinate within the margin of its cell's border may have its class next door.
-    std::int64_t step[4];
+    int near[4], nearCount = 0;
+    double step[4];
     for (int i = 0; i < 4; ++i) {
-      const double inside = at[i] - static_cast<double>(home[i]);
-      step[i] = inside > 0.5 - margin_ ? 1 : inside < -0.5 + margin_ ? -1 : 0;
+      const double inside = at[i] - home[i];
+      if (std::abs(inside) <= 0.5 - margin_) continue;
+      near[nearCount] = i, step[nearCount++] = inside > 0 ? 1 : -1;
     }
-    for (int corner = 0; corner < 16; ++corner) {
+    for (int corner = 0; corner < 1 << nearCount; ++corner) {
       Cell cell = home;
-      bool real = true;
-      for (int i = 0; i < 4; ++i) {
-        if (!(corner >> i & 1)) continue;
-        if (step[i] == 0) real = false;
-        cell[i] += step[i];
-      }
-      if (!real) continue;
-      const auto head = heads_.find(cell);
-      if (head == heads_.end()) continue;
-      for (std::uint32_t c = head->second; c != kEnd; c = next_[c]) {
+      for (int i = 0; i < nearCount; ++i) cell[near[i]] += corner >> i & 1 ? step[i] : 0;
+      for (std::uint32_t c = heads_[bucketOf(cell)]; c != kEnd; c = next_[c]) {
         if (accept(c)) return c;
       }
     }
@@ -164,17 +174,16 @@ class ClassIndex {
   }
 
   double cell_, margin_;   // margin in cells
-  std::unordered_map<Cell, std::uint32_t, CellHash> heads_;
-  std::vector<std::uint32_t> next_;
+  std::vector<std::uint32_t> heads_, next_;
 };
 
 float below(double v) { return std::nextafter(static_cast<float>(v), -std::numeric_limits<float>::infinity()); }
 float above(double v) { return std::nextafter(static_cast<float>(v), std::numeric_limits<float>::infinity()); }
 
-void widen(PlaneClass& planeClass, const glm::dvec3& point) {
+void widen(PlaneClass& planeClass, const Box& box) {
   for (int i = 0; i < 3; ++i) {
-    planeClass.boundsMin[i] = std::min(planeClass.boundsMin[i], below(point[i]));
-    planeClass.boundsMax[i] = std::max(planeClass.boundsMax[i], above(point[i]));
+    if (box.min[i] < planeClass.boundsMin[i]) planeClass.boundsMin[i] = below(box.min[i]);
+    if (box.max[i] > planeClass.boundsMax[i]) planeClass.boundsMax[i] = above(box.max[i]);
   }
 }
 
@@ -182,6 +191,26 @@ double largestCoordinate(const Box& bounds) {
   if (bounds.empty()) return 0;
   const glm::dvec3 m = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
   return std::max({m.x, m.y, m.z});
+}
+
+// Every corner within the tolerance of the class's plane. The plane of the facet and its extent mostly tell without looking at the corners.
+bool agrees(const Scene& scene, const Facet& facet, const PlaneClass& planeClass, const std::vector<std::uint32_t>& starts,
+            double tolerance) {
+  const Object& placed = scene.objects()[planeClass.object];
+  const glm::dvec3 point = transformPoint(placed.worldFromObject, placed.mesh->vertices[placed.mesh->triangles[planeClass.triangle].x]);
+  const double at = std::abs(glm::dot(planeClass.normal, facet.point - point));
+  if (at > tolerance) return false;
+  const glm::dvec3 turn = glm::dot(facet.normal, planeClass.normal) < 0 ? facet.normal + planeClass.normal : facet.normal - planeClass.normal;
+  if (at + facet.flatness + glm::length(turn) * facet.radius <= tolerance) return true;
+  const Mesh& mesh = *scene.objects()[facet.key.object].mesh;
+  const FacetRange range = rangeOf(starts, facet.key.facet);
+  for (std::uint32_t t = range.begin; t < range.end; ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec3 v = scene.worldVertex(facet.key.object, mesh.triangles[t][k]);
+      if (std::abs(glm::dot(planeClass.normal, v - point)) > tolerance) return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -212,55 +241,67 @@ PlaneClasses::PlaneClasses(const Scene& scene, double tolerance)
   }
   classOfFacet_.resize(facetCount);
 
-  // Measure every placed facet.
+  // Large facets first: they know their plane best, and the outcome does not depend on the order of the input.
   const glm::dvec3 center = scene.bounds().center();
   const double diagonal = scene.bounds().diagonal();
-  std::vector<Facet> facets(facetCount);
+  const auto measured = [&](std::uint32_t object, std::uint32_t f) {
+    Facet facet = measure(scene, object, f, rangeOf(*starts[object], f));
+    facet.offset = diagonal > 0 ? glm::dot(facet.normal, facet.point - center) / diagonal : 0.0;
+    facet.key.tie = hashOf(facet.normal, facet.offset);
+    return facet;
+  };
+  std::vector<FacetKey> keys(facetCount);
   tbb::parallel_for(std::size_t{0}, scene.objects().size(), [&](std::size_t object) {
-    const auto count = static_cast<std::uint32_t>(scene.objects()[object].mesh->facetCount());
-    for (std::uint32_t f = 0; f < count; ++f) {
-      Facet& facet = facets[firstFacet_[object] + f];
-      facet.object = static_cast<std::uint32_t>(object);
-      facet.facet = f;
-      measure(scene, facet, rangeOf(*starts[object], f), center, diagonal);
-    }
+    const std::size_t count = scene.objects()[object].mesh->facetCount();
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kBlock), [&](const auto& range) {
+      for (std::size_t f = range.begin(); f != range.end(); ++f) {
+        keys[firstFacet_[object] + f] = measured(static_cast<std::uint32_t>(object), static_cast<std::uint32_t>(f)).key;
+      }
+    });
+  });
+  tbb::parallel_sort(keys.begin(), keys.end(), [](const FacetKey& a, const FacetKey& b) {
+    return std::tuple(-a.area, a.tie, a.object, a.facet) < std::tuple(-b.area, b.tie, b.object, b.facet);
   });
 
-  // Large facets first: they know their plane best, and the outcome does not depend on the order of the input.
-  tbb::parallel_sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) {
-    const auto key = [](const Facet& f) {
-      return std::tuple(-f.area, f.normal.x, f.normal.y, f.normal.z, f.offset, f.object, f.facet);
-    };
-    return key(a) < key(b);
-  });
-
+  // Facets are measured again block by block, in parallel, rather than kept; the classes are formed in order.
   const double relative = diagonal > 0 ? tolerance_ / diagonal : kRelativeTolerance;
   ClassIndex index(relative * kMarginPerTolerance, facetCount);
-  std::vector<glm::dvec3> corners;
-  for (const Facet& facet : facets) {
-    const Mesh& mesh = *scene.objects()[facet.object].mesh;
-    const FacetRange range = rangeOf(*starts[facet.object], facet.facet);
-    corners.clear();
-    for (std::uint32_t t = range.begin; t < range.end; ++t) {
-      for (int k = 0; k < 3; ++k) corners.push_back(scene.worldVertex(facet.object, mesh.triangles[t][k]));
+  std::vector<Facet> block;
+  for (std::size_t begin = 0; begin < keys.size(); begin += kBlock) {
+    block.resize(std::min(kBlock, keys.size() - begin));
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, block.size(), 64), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i) block[i] = measured(keys[begin + i].object, keys[begin + i].facet);
+    });
+    for (const Facet& facet : block) {
+      std::uint32_t found = index.find(facet, [&](std::uint32_t c) { return agrees(scene, facet, classes_[c], *starts[facet.key.object], tolerance_); });
+      if (found == ClassIndex::kEnd) {
+        found = static_cast<std::uint32_t>(classes_.size());
+        constexpr float kInf = std::numeric_limits<float>::infinity();
+        classes_.push_back({facet.normal, above(facet.error), facet.key.object, facet.key.triangle, glm::vec3(kInf), glm::vec3(-kInf)});
+        index.insert(facet, found);
+      }
+      widen(classes_[found], facet.box);
+      classOfFacet_[firstFacet_[facet.key.object] + facet.key.facet] = found;
     }
-    const auto agrees = [&](std::uint32_t c) {
-      const PlaneClass& planeClass = classes_[c];
-      const glm::dvec3 p = scene.worldVertex(
-          planeClass.object, scene.objects()[planeClass.object].mesh->triangles[planeClass.triangle].x);
-      return std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& v) {
-        return std::abs(glm::dot(planeClass.normal, v - p)) <= tolerance_;
-      });
-    };
-    std::uint32_t found = index.find(facet, agrees);
-    if (found == ClassIndex::kEnd) {
-      found = static_cast<std::uint32_t>(classes_.size());
-      constexpr float kInf = std::numeric_limits<float>::infinity();
-      classes_.push_back({facet.normal, facet.normalError, facet.object, facet.triangle, glm::vec3(kInf), glm::vec3(-kInf)});
-      index.insert(facet, found);
+  }
+  keys = {};
+  numberByObject();
+}
+
+// Classes numbered as the objects meet them, so that what is drawn together lies together.
+void PlaneClasses::numberByObject() {
+  std::vector<std::uint32_t> number(classes_.size(), ~std::uint32_t{0});
+  std::uint32_t count = 0;
+  for (std::uint32_t& planeClass : classOfFacet_) {
+    if (number[planeClass] == ~std::uint32_t{0}) number[planeClass] = count++;
+    planeClass = number[planeClass];
+  }
+  // Moved in place, cycle by cycle.
+  for (std::uint32_t i = 0; i < number.size(); ++i) {
+    while (number[i] != i) {
+      std::swap(classes_[i], classes_[number[i]]);
+      std::swap(number[i], number[number[i]]);
     }
-    for (const glm::dvec3& v : corners) widen(classes_[found], v);
-    classOfFacet_[firstFacet_[facet.object] + facet.facet] = found;
   }
 }
 

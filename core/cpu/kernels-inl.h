@@ -161,11 +161,13 @@ HWY_INLINE HWY_ATTR void compareExchange(std::uint64_t* p, std::uint64_t* q) {
 
 // Batcher's odd-even merge sort of n layers, eight pixels at once. Based on: Batcher. Sorting networks and their applications. AFIPS 1968.
 HWY_ATTR void sortLayers(std::uint64_t* layers, std::uint32_t n) {
-  for (std::uint32_t p = 1; p < n; p *= 2) {
+  for (std::uint32_t log = 0; (1u << log) < n; ++log) {
+    const std::uint32_t p = 1u << log;
     for (std::uint32_t k = p; k >= 1; k /= 2) {
-      for (std::uint32_t j = k % p; j + k < n; j += 2 * k) {
-        for (std::uint32_t i = j; i < j + k && i + k < n; ++i) {
-          if (i / (2 * p) != (i + k) / (2 * p)) continue;
+      for (std::uint32_t j = k & (p - 1); j + k < n; j += 2 * k) {
+        const std::uint32_t end = j + k < n - k ? j + k : n - k;
+        for (std::uint32_t i = j; i < end; ++i) {
+          if (i >> (log + 1) != (i + k) >> (log + 1)) continue;
           compareExchange(layers + std::size_t{i} * kBlockPixels, layers + std::size_t{i + k} * kBlockPixels);
         }
       }

@@ -17,6 +17,7 @@ constexpr double kBias = 4503599627370496.0;              // 2^52: beyond it a d
 constexpr double kMostUncertainty = 1125899906842624.0;   // 2^50 key units: nothing is certain
 // Two sums near 2^52 and a clamp round to whole key units.
 constexpr double kKeyRounding = 3;
+constexpr double kFinestError = 64;   // key units, of the most certain plane of a tile
 
 struct Corners {
   glm::ivec2 p, q, r;
@@ -33,6 +34,9 @@ Corners cornersOf(const Frame& frame, std::uint32_t object, std::uint32_t refere
 }
 
 bool mirrors(const glm::dmat4& m) { return glm::determinant(glm::dmat3(m)) < 0; }
+
+// A triangle covers about half of its bounds.
+double layersOf(const TriangleSetup& t, int pixels) { return 0.5 * (t.x1 - t.x0 + 1) * (t.y1 - t.y0 + 1) / pixels; }
 
 }  // namespace
 
@@ -142,7 +146,11 @@ void Tile::scaleDepths(const Frame& frame, bool decideAllExactly) {
   // A margin of 2^-8 of the range at both ends takes the rounding.
   const double units = std::ldexp(1.0, format.depthBits), margin = units / 256;
   const double range = most_ - least_;
-  const double scale = range > 0 ? std::min((units - 2 * margin) / range, 1e200) : 1.0;
+  // A range so small that rounding would fill thousands of key units gains nothing from a larger scale.
+  double leastError = std::numeric_limits<double>::infinity();
+  for (const TileSlot& slot : slots) leastError = std::min(leastError, double(frame.depths[slot.planeClass].error));
+  const double limit = std::clamp(kFinestError / leastError, 1e-200, 1e200);
+  const double scale = std::min(range > 0 ? (units - 2 * margin) / range : 1.0, limit);
   const double shift = kBias + margin;
   for (std::size_t i = 0; i < setups.size(); ++i) {
     TriangleSetup& t = setups[i];
@@ -163,6 +171,18 @@ void Tile::scaleDepths(const Frame& frame, bool decideAllExactly) {
     if (slot.uncertainty <= kCoarse) common = std::max(common, slot.uncertainty);
   }
   for (TileSlot& slot : slots) slot.uncertainty = std::max(slot.uncertainty, common);
+}
+
+double Tile::layers() const {
+  double sum = 0;
+  for (const TriangleSetup& t : setups) sum += layersOf(t, width * height);
+  return sum;
+}
+
+std::size_t Tile::setupsOfLayers(double layers) const {
+  std::size_t count = 0;
+  while (count < setups.size() && layers > 0) layers -= layersOf(setups[count++], width * height);
+  return count;
 }
 
 void Tile::orderByDepth() {

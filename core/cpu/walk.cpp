@@ -24,6 +24,10 @@ void ExactStack::order(const PixelStack& stack, const ExactOrder& exact, int x, 
 
 void ExactStack::orderCluster(const PixelStack& stack, std::uint32_t begin, std::uint32_t end, const ExactOrder& exact, int x, int y,
                               WalkCounts& counts) {
+  if (end - begin == 1) {
+    entries_.push_back({stack.slot(begin), groups_++});
+    return;
+  }
   // One entry per class; fragments of a class have one depth.
   classes_.clear();
   for (std::uint32_t i = begin; i < end; ++i) {
@@ -40,7 +44,7 @@ void ExactStack::orderCluster(const PixelStack& stack, std::uint32_t begin, std:
     ++counts.decidedExactly;
     return exact.compare(a.planeClass, b.planeClass, x, y);
   };
-  std::stable_sort(classes_.begin(), classes_.end(), [&](const Class& a, const Class& b) { return compare(a, b) < 0; });
+  std::sort(classes_.begin(), classes_.end(), [&](const Class& a, const Class& b) { return compare(a, b) < 0; });
   for (std::size_t k = 0; k < classes_.size(); ++k) {
     if (k > 0 && compare(classes_[k - 1], classes_[k]) != 0) ++groups_;
     classes_[k].group = groups_;
