@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <memory>
 
 #include <CLI/CLI.hpp>
 
@@ -88,9 +89,16 @@ void climb(const Options& options, const Programs& programs, const WorkFolder& w
   const RungFolders folders = defaultFolders();
   for (const Rung& rung : chosenRungs(folders, options.rungs)) {
     fmt::print(stderr, "{}: {}\n", rung.name, rung.title);
-    const fs::path csg = evaluate(rung, folders, work.path());
-    const WholeProcesses processes = measureProcesses(rung, folders, csg, programs, options.processes);
-    results.rungs.push_back({rung, measureApart(csg, options, work), processes});
+    // A rung that cannot be measured does not take the others with it.
+    try {
+      const fs::path csg = evaluate(rung, folders, work.path());
+      const WholeProcesses processes = measureProcesses(rung, folders, csg, programs, options.processes);
+      results.rungs.push_back({rung, measureApart(csg, options, work), processes});
+    } catch (const Error& error) {
+      if (error.code() == ExitCode::Usage) throw;
+      fmt::print(stderr, "{}: left out: {}\n", rung.name, error.what());
+      results.leftOut.push_back(rung.name);
+    }
   }
 }
 

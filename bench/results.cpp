@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
@@ -84,6 +85,7 @@ std::string checkLines(const Results& results) {
   for (const Check& check : all) {
     if (!check.met()) text += fmt::format("- {}\n", lineOf(check));
   }
+  if (!results.leftOut.empty()) text += fmt::format("\nNot measured: {}.\n", fmt::join(results.leftOut, ", "));
   return text;
 }
 
@@ -158,6 +160,7 @@ std::string toJson(const Results& results) {
             {"width", kWidthPx},
             {"height", kHeightPx},
             {"rungs", Json::array()},
+            {"left_out", results.leftOut},
             {"scaling", Json::array()},
             {"checks", Json::array()}};
   for (const RungResult& r : results.rungs) text["rungs"].push_back(json(r));

@@ -30,6 +30,7 @@ struct Results {
   Machine machine;
   int threads = 2;
   std::vector<RungResult> rungs;
+  std::vector<std::string> leftOut;   // rungs that could not be measured
   std::vector<ScalingResult> scaling;
 };
 
