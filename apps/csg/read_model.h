@@ -24,7 +24,8 @@ Model readCsg(const std::string& path, const ReadOptions& options);
 Model parseCsg(const std::string& text, const std::string& name, const std::string& folder, const ReadOptions& options);
 
 // Mesh files, united, or combined by an expression over A, B, C … in the order of the files: + or | union, - difference, & or * intersection,
-// parentheses; & binds tighter than + and -, which associate to the left.
+// parentheses; & binds tighter than + and -, which associate to the left. Beyond Z: M27, M28 … (M and a number counted from 1 names any
+// mesh). Leaves stand in the order of the expression, one for each time a mesh is named. Throws Error{Usage} for a bad expression.
 Model readMeshes(const std::vector<std::string>& paths, const std::string& expression);
 
 }  // namespace copeel::csg
