@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include "core/scene/mesh.h"
 
 namespace copeel::test {
