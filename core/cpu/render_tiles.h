@@ -42,6 +42,8 @@ class TileRenderer {
     tile_.begin(frame_, index);
     if (!fold_.beginTile(tile_)) return;
     tile_.setUp(frame_, options_.decideAllExactly);
+    std::fill(std::begin(done_), std::end(done_), 0);
+    finished_ = 0;
     drawRect(BlockRect{0, 0, (tile_.width + kBlockSize - 1) / kBlockSize, (tile_.height + kBlockSize - 1) / kBlockSize});
   }
   const TileCounts& counts() const { return counts_; }
@@ -49,8 +51,6 @@ class TileRenderer {
 
  private:
   void drawRect(const BlockRect& rect) {
-    std::fill(std::begin(done_), std::end(done_), 0);
-    finished_ = 0;
     grid_.clear();
     grid_.setBudget(rect.count() == 1 ? ~std::size_t{0} : options_.gridBudgetBytes);
     double layers = fold_.needsWholeStack() ? 0 : 2 + 2 * fold_.leastFragments();
@@ -64,20 +64,26 @@ class TileRenderer {
       if (foldRect(rect, last ? ~std::uint64_t{0} : tile_.nearest[end]) || last) break;
       begin = end;
     }
-    for (int b = 0; b < kBlocksPerTile; ++b) {
-      for (std::uint32_t n : grid_.block(b).counts) {
-        counts_.fragments += n;
-        counts_.coveredPixels += n > 0;
-        counts_.depthComplexityMax = std::max<std::uint64_t>(counts_.depthComplexityMax, n);
-      }
+    for (int b = 0; b < kBlocksPerTile; ++b) countFragments(b);
+  }
+
+  void countFragments(int b) {
+    for (std::uint32_t n : grid_.block(b).counts) {
+      counts_.fragments += n;
+      counts_.coveredPixels += n > 0;
+      counts_.depthComplexityMax = std::max<std::uint64_t>(counts_.depthComplexityMax, n);
     }
   }
 
   void split(const BlockRect& rect) {
-    // What the grid could not take is drawn block by block.
+    // What the grid could not take is drawn block by block; blocks and pixels that an earlier batch finished stay as they are.
+    for (int b = 0; b < kBlocksPerTile; ++b) {
+      if (finished_ >> b & 1) countFragments(b);
+    }
     grid_ = FragmentGrid(options_.gridBudgetBytes);
     for (int by = rect.by0; by < rect.by1; ++by) {
       for (int bx = rect.bx0; bx < rect.bx1; ++bx) {
+        if (finished_ >> (by * kBlocksPerSide + bx) & 1) continue;
         drawRect({bx, by, bx + 1, by + 1});
         grid_ = FragmentGrid(options_.gridBudgetBytes);
       }
