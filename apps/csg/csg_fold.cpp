@@ -36,9 +36,13 @@ void CsgFold::setInitialState() {
   topOfOutput_.assign(forest_.outputs.size(), kNone);
   for (const PrunedForest::Node& node : pruned_.nodes()) {
     if (node.output != kNone) topOfOutput_[node.output] = static_cast<std::uint32_t>(gates_.size());
-    gates_.push_back({node.initial, node.threshold, node.parent, node.output, node.negated});
+    gates_.push_back({node.threshold - node.initial, node.parent, node.output, node.negated});
   }
-  winding_.assign(leaves_.size(), 0);
+  states_.clear();
+  for (std::uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
+    const auto uses = pruned_.uses(leaf);
+    states_.push_back(uses.empty() ? LeafState{0, kNone, false, false} : LeafState{0, uses[0].node, uses[0].negated, uses.size() > 1});
+  }
   change_.assign(leaves_.size(), 0);
   if (eye_.any) {
     for (std::uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
@@ -47,14 +51,14 @@ void CsgFold::setInitialState() {
   }
   risen_.clear();
   initialGates_ = gates_;
-  initialWinding_ = winding_;
+  initialStates_ = states_;
   dirty_ = false;
 }
 
 void CsgFold::beginPixel(const PixelStack& stack) {
   slots_ = stack.slots;
   if (dirty_) {
-    std::copy(initialWinding_.begin(), initialWinding_.end(), winding_.begin());
+    std::copy(initialStates_.begin(), initialStates_.end(), states_.begin());
     std::copy(initialGates_.begin(), initialGates_.end(), gates_.begin());
     dirty_ = false;
   }
@@ -73,21 +77,23 @@ void CsgFold::startInsideStack(const PixelStack& stack) {
   risen_.clear();
 }
 
-void CsgFold::addWinding(std::uint32_t leaf, std::int32_t change) {
-  const std::int32_t winding = winding_[leaf];
-  const bool before = inside(winding), after = inside(winding + change);
-  winding_[leaf] = winding + change;
+inline void CsgFold::addWinding(std::uint32_t leaf, std::int32_t change) {
+  LeafState& state = states_[leaf];
+  const bool before = inside(state.winding), after = inside(state.winding + change);
+  state.winding += change;
   dirty_ = true;
-  if (before == after) return;
-  for (const PrunedForest::Use& use : pruned_.uses(leaf)) climb(use.node, after != use.negated);
+  if (before == after || state.gate == kNone) return;
+  climb(state.gate, after != state.negated);
+  if (!state.hasMoreUses) return;
+  for (const PrunedForest::Use& use : pruned_.uses(leaf).subspan(1)) climb(use.node, after != use.negated);
 }
 
 // An input of a gate became `value`; the change travels up to the first gate that holds.
-void CsgFold::climb(std::uint32_t index, bool value) {
+inline void CsgFold::climb(std::uint32_t index, bool value) {
   for (;;) {
     Gate& gate = gates_[index];
     const bool was = gate.isTrue();
-    gate.inputs += value ? 1 : -1;
+    gate.lacking -= value ? 1 : -1;
     const bool is = gate.isTrue();
     if (was == is) return;
     if (gate.output != kNone && is) risen_.push_back(gate.output);
@@ -149,7 +155,7 @@ std::uint32_t CsgFold::showingFace(std::uint32_t output) {
 
 // True when the leaf's change in the group travels up to the output: every gate on the way changes with its input.
 bool CsgFold::bringsChange(std::uint32_t leaf, std::uint32_t output) const {
-  const bool after = inside(winding_[leaf]), before = inside(winding_[leaf] - change_[leaf]);
+  const bool after = inside(states_[leaf].winding), before = inside(states_[leaf].winding - change_[leaf]);
   if (before == after) return false;
   for (const PrunedForest::Use& use : pruned_.uses(leaf)) {
     bool value = after != use.negated;

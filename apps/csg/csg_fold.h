@@ -43,6 +43,7 @@ class CsgFold {
 
   bool beginTile(cpu::Tile& tile);
   bool needsWholeStack() const { return tileNeedsStack_; }
+  double leastFragments() const { return pruned_.leastEntries(); }
   void beginPixel(const PixelStack& stack);
   void fragment(std::uint32_t slot) {
     if (groupCount_ == group_.size()) group_.resize(group_.size() * 2);
@@ -55,12 +56,18 @@ class CsgFold {
  private:
   // A gate of the tile while a pixel is walked.
   struct Gate {
-    std::int32_t inputs;       // true ones
-    std::int32_t threshold;
+    std::int32_t lacking;      // true inputs to come before it is true; not positive: it is
     std::uint32_t parent;
     std::uint32_t output;
+    bool negated;              // seen by the parent
+    bool isTrue() const { return lacking <= 0; }
+  };
+  // A leaf, with its first use at hand: nearly all leaves have just one.
+  struct LeafState {
+    std::int32_t winding;
+    std::uint32_t gate;        // kNone: the leaf does not matter
     bool negated;
-    bool isTrue() const { return inputs >= threshold; }
+    bool hasMoreUses;
   };
 
   bool inside(std::int32_t winding) const {
@@ -89,12 +96,12 @@ class CsgFold {
   std::vector<std::uint32_t> leaves_;
   std::vector<std::uint32_t> topOfOutput_;     // gate, or kNone
   std::vector<Gate> initialGates_;
-  std::vector<std::int32_t> initialWinding_;
+  std::vector<LeafState> initialStates_;
   bool tileNeedsStack_ = false;
 
   // Of the pixel.
   bool dirty_ = true;                          // the state differs from the initial one
-  std::vector<std::int32_t> winding_;          // per leaf
+  std::vector<LeafState> states_;              // per leaf
   std::vector<Gate> gates_;
   std::vector<std::uint32_t> group_ = std::vector<std::uint32_t>(64);   // slots
   std::size_t groupCount_ = 0;

@@ -2,6 +2,7 @@
 #include "apps/csg/gates.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace copeel::csg {
 namespace {
@@ -120,6 +121,7 @@ void PrunedForest::prune(const GateForest& forest, std::span<const std::uint32_t
     }
   }
   firstUse_.push_back(static_cast<std::uint32_t>(uses_.size()));
+  countLeastEntries();
 }
 
 void PrunedForest::markAncestors(const GateForest& forest, std::span<const std::uint32_t> leaves) {
@@ -167,6 +169,25 @@ void PrunedForest::numberGates(const GateForest& forest) {
     nodes_.push_back({parent ? parent->node : kNone, gate.all ? static_cast<std::int32_t>(live.positive) : 1, 0, gate.output, negated});
     // A negated input is true while its leaves are outside: it raises the threshold and the initial count alike.
     if (negated) ++nodes_[parent->node].threshold, ++nodes_[parent->node].initial;
+  }
+}
+
+// A gate that lacks one input takes the cheapest, one that lacks all of them takes their sum.
+void PrunedForest::countLeastEntries() {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  entries_.clear();
+  for (const Node& node : nodes_) entries_.push_back(node.threshold - node.initial == 1 ? kNever : 0);
+  const auto feed = [&](std::uint32_t node, double cost) {
+    const bool one = nodes_[node].threshold - nodes_[node].initial == 1;
+    entries_[node] = one ? std::min(entries_[node], cost) : entries_[node] + cost;
+  };
+  for (const Use& use : uses_) {
+    if (!use.negated) feed(use.node, 1);
+  }
+  leastEntries_ = kNever;
+  for (std::size_t n = nodes_.size(); n-- > 0;) {
+    if (nodes_[n].parent == kNone) leastEntries_ = std::min(leastEntries_, entries_[n]);
+    else if (!nodes_[n].negated) feed(nodes_[n].parent, entries_[n]);
   }
 }
 

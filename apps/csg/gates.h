@@ -69,6 +69,8 @@ class PrunedForest {
   std::span<const Use> uses(std::uint32_t localLeaf) const {
     return {uses_.data() + firstUse_[localLeaf], firstUse_[localLeaf + 1] - firstUse_[localLeaf]};
   }
+  // How many leaves must be entered at least before any output is true.
+  double leastEntries() const { return leastEntries_; }
   bool matters(std::uint32_t localLeaf) const { return firstUse_[localLeaf] != firstUse_[localLeaf + 1]; }
 
  private:
@@ -83,6 +85,7 @@ class PrunedForest {
   void markAncestors(const GateForest& forest, std::span<const std::uint32_t> leaves);
   void settleGates(const GateForest& forest);
   void numberGates(const GateForest& forest);
+  void countLeastEntries();
 
   std::vector<Live> live_;
   std::vector<std::uint32_t> marked_;
@@ -90,6 +93,8 @@ class PrunedForest {
   std::vector<Node> nodes_;
   std::vector<Use> uses_;
   std::vector<std::uint32_t> firstUse_;
+  std::vector<double> entries_;
+  double leastEntries_ = 0;
 };
 
 }  // namespace copeel::csg

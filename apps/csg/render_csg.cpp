@@ -135,6 +135,7 @@ void Renderer::State::drawTiles(const cpu::Frame& frame, PixelSink& sink) {
       frame, tileOptions, [&] { return CsgFold(forest, eye, options.inside, alpha, look.get(), sink); });
   stats.fragments = stats.fragmentsCaptured = counts.fragments;
   stats.depthComplexityMax = counts.depthComplexityMax;
+  stats.coveredPixels = counts.coveredPixels;
   stats.coplanarPixels = counts.coplanarPixels;
   stats.decidedExactly = counts.decidedExactly;
 }

@@ -1,12 +1,16 @@
 #include "apps/csg/shapes.h"
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 #include "apps/csg/arguments.h"
+#include "apps/csg/extrude.h"
+#include "apps/csg/flat.h"
 #include "core/error.h"
 #include "core/formats/read_mesh.h"
 
@@ -21,14 +25,59 @@ std::string keyOfNumbers(Keyword keyword, Numbers... numbers) {
   return key;
 }
 
+std::string fileOf(const SyntaxTree& tree, const SyntaxNode& node) {
+  const Value* file = tree.find(node, "file", 0);
+  return file && file->kind == ValueKind::String ? tree.stringOf(*file) : "";
+}
+
+std::string extensionOf(const std::string& file) {
+  std::string extension = std::filesystem::path(file).extension().string();
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return extension;
+}
+
+// What openscad imports by itself goes through openscad; meshes we read as they are, in full precision.
+bool isMeshFile(const std::string& file) {
+  const std::string extension = extensionOf(file);
+  return extension == ".stl" || extension == ".off" || extension == ".obj" || extension == ".ply";
+}
+
+bool isFlatFile(const std::string& file) { return extensionOf(file) == ".dxf" || extensionOf(file) == ".svg"; }
+
 }  // namespace
 
 bool isTreeKeyword(Keyword keyword) { return keyword <= Keyword::Render; }
 
-bool isExternalKeyword(Keyword keyword) { return keyword >= Keyword::Text; }
+bool isExternalNode(const SyntaxTree& tree, std::uint32_t index) {
+  const SyntaxNode& node = tree.nodes[index];
+  if (node.keyword >= Keyword::Text) return true;
+  const Value* file = tree.find(node, "file");
+  const bool namesFile = file && file->kind == ValueKind::String && file->textLength > 0;
+  if (node.keyword == Keyword::LinearExtrude || node.keyword == Keyword::RotateExtrude) return namesFile;   // of a DXF, long deprecated
+  return node.keyword == Keyword::Import && !isMeshFile(fileOf(tree, node));
+}
 
-bool isFlatKeyword(Keyword keyword) {
-  return keyword >= Keyword::Square && keyword <= Keyword::Offset;
+std::vector<std::uint8_t> dimensionsOf(const SyntaxTree& tree) {
+  std::vector<std::uint8_t> dimensions(tree.nodes.size(), 0);
+  // Children come after their parent: a walk from the end knows them.
+  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+    const SyntaxNode& node = tree.nodes[i];
+    switch (node.keyword) {
+      case Keyword::Square: case Keyword::Circle: case Keyword::Polygon: case Keyword::Text: case Keyword::Offset: case Keyword::Projection:
+        dimensions[i] = 2;
+        continue;
+      case Keyword::Import: dimensions[i] = isFlatFile(fileOf(tree, node)) ? 2 : 3; continue;
+      default: break;
+    }
+    if (!isTreeKeyword(node.keyword) && node.keyword != Keyword::Hull && node.keyword != Keyword::Minkowski && node.keyword != Keyword::Resize) {
+      dimensions[i] = 3;
+      continue;
+    }
+    for (std::size_t child = i + 1; child < node.subtreeEnd && dimensions[i] == 0; child = tree.nodes[child].subtreeEnd) {
+      if (!(tree.nodes[child].modifiers & (kBackground | kDisabled))) dimensions[i] = dimensions[child];
+    }
+  }
+  return dimensions;
 }
 
 // The parameters that make the shape: equal keys, equal meshes.
@@ -86,8 +135,54 @@ MeshPointer Shapes::make(std::uint32_t index) {
     case Keyword::Sphere: return makeSphere(radiusOf(tree_, node, "r", "d", 1), fragmentsOf(tree_, node));
     case Keyword::Cylinder: return makeCylinderOf(node);
     case Keyword::Polyhedron: return makePolyhedronOf(node);
-    default: tree_.fail(node.textBegin, fmt::format("{} is not supported yet", tree_.nameOf(node)));
+    case Keyword::Square: case Keyword::Circle: case Keyword::Polygon: return slabOf(flatOfNode(tree_, index, external_, warnings_));
+    case Keyword::LinearExtrude: return isExternalNode(tree_, index) ? makeExternal(index) : makeLinearExtrude(index);
+    case Keyword::RotateExtrude: return isExternalNode(tree_, index) ? makeExternal(index) : makeRotateExtrude(index);
+    case Keyword::Import: return isExternalNode(tree_, index) ? makeExternal(index) : makeImport(node);
+    default: return makeExternal(index);
   }
+}
+
+MeshPointer Shapes::makeExternal(std::uint32_t index) {
+  const auto found = external_.shapes.find(index);
+  if (found == external_.shapes.end()) return nullptr;
+  return found->second.flat ? slabOf(flatOfNode(tree_, index, external_, warnings_)) : found->second.mesh;
+}
+
+MeshPointer Shapes::makeLinearExtrude(std::uint32_t index) {
+  const SyntaxNode& node = tree_.nodes[index];
+  LinearExtrusion how;
+  how.height = numberOr(tree_, node, "height", how.height, 0);
+  how.center = boolOr(tree_, node, "center", false);
+  how.twist = numberOr(tree_, node, "twist", 0);
+  how.hasTwist = how.twist != 0;
+  const double slices = numberOr(tree_, node, "slices", 0);
+  if (slices >= kMaxSolidCorners) throw std::length_error("more than 5e7 slices");
+  if (slices > 0) how.slices = std::max(static_cast<int>(slices), 1);
+  if (const Value* scale = tree_.find(node, "scale")) readNumbers(tree_, *scale, &how.scale.x, 2);
+  how.scale = glm::max(how.scale, glm::dvec2(0));
+  how.fragments = fragmentsOf(tree_, node);
+  return extrude(flatOfChildren(tree_, index, external_, warnings_), how);
+}
+
+MeshPointer Shapes::makeRotateExtrude(std::uint32_t index) {
+  const SyntaxNode& node = tree_.nodes[index];
+  double angle = numberOr(tree_, node, "angle", 360);
+  if (angle <= -360 || angle > 360) angle = 360;
+  const Flat flat = flatOfChildren(tree_, index, external_, warnings_);
+  if (crossesAxis(flat)) {
+    warnings_.push_back(fmt::format("{}:{}: rotate_extrude of a shape on both sides of the axis: it is left out", tree_.name,
+                                    tree_.lineAt(node.textBegin)));
+  }
+  return rotateExtrude(flat, angle, fragmentsOf(tree_, node));
+}
+
+MeshPointer Shapes::makeImport(const SyntaxNode& node) {
+  const std::filesystem::path file = std::filesystem::path(folder_) / fileOf(tree_, node);
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) tree_.fail(node.textBegin, fmt::format("{}: no such file", file.string()));
+  Mesh mesh = readMesh(file.string());
+  return mesh.triangles.empty() ? nullptr : std::make_shared<const Mesh>(std::move(mesh));
 }
 
 MeshPointer Shapes::makeCylinderOf(const SyntaxNode& node) const {

@@ -25,8 +25,10 @@ class Shapes {
   MeshPointer make(std::uint32_t node);
   MeshPointer makeCylinderOf(const SyntaxNode& node) const;
   MeshPointer makePolyhedronOf(const SyntaxNode& node) const;
+  MeshPointer makeExternal(std::uint32_t node);
   MeshPointer makeImport(const SyntaxNode& node);
-  MeshPointer makeFlat(std::uint32_t node);
+  MeshPointer makeLinearExtrude(std::uint32_t node);
+  MeshPointer makeRotateExtrude(std::uint32_t node);
   std::string keyOf(const SyntaxNode& node) const;
 
   const SyntaxTree& tree_;
@@ -38,7 +40,11 @@ class Shapes {
 
 // What a node makes by itself, whatever its children are.
 bool isTreeKeyword(Keyword keyword);       // group … render: its children are placed one by one
-bool isFlatKeyword(Keyword keyword);       // square, circle, polygon, text, offset
-bool isExternalKeyword(Keyword keyword);   // evaluated by openscad
+
+// Only openscad itself evaluates this node with all below it.
+bool isExternalNode(const SyntaxTree& tree, std::uint32_t node);
+
+// 2 or 3 for each node, 0 for nothing: the dimension of the first child that has one.
+std::vector<std::uint8_t> dimensionsOf(const SyntaxTree& tree);
 
 }  // namespace copeel::csg

@@ -284,6 +284,25 @@ PlaneClasses::PlaneClasses(const Scene& scene, double tolerance)
       classOfFacet_[firstFacet_[facet.key.object] + facet.key.facet] = found;
     }
   }
+  keys = {};
+  numberByObject();
+}
+
+// Classes numbered as the objects meet them, so that what is drawn together lies together.
+void PlaneClasses::numberByObject() {
+  std::vector<std::uint32_t> number(classes_.size(), ~std::uint32_t{0});
+  std::uint32_t count = 0;
+  for (std::uint32_t& planeClass : classOfFacet_) {
+    if (number[planeClass] == ~std::uint32_t{0}) number[planeClass] = count++;
+    planeClass = number[planeClass];
+  }
+  // Moved in place, cycle by cycle.
+  for (std::uint32_t i = 0; i < number.size(); ++i) {
+    while (number[i] != i) {
+      std::swap(classes_[i], classes_[number[i]]);
+      std::swap(number[i], number[number[i]]);
+    }
+  }
 }
 
 }  // namespace copeel

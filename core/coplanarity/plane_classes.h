@@ -39,7 +39,10 @@ class PlaneClasses {
   std::uint32_t classOf(std::uint32_t object, std::uint32_t facet) const { return classOfFacet_[firstFacet_[object] + facet]; }
   const std::uint32_t* classesOfObject(std::uint32_t object) const { return classOfFacet_.data() + firstFacet_[object]; }
 
+
  private:
+  void numberByObject();
+
   double tolerance_ = 0;
   std::vector<PlaneClass> classes_;
   std::vector<std::uint64_t> firstFacet_;

@@ -18,6 +18,7 @@ namespace copeel::cpu {
 struct TileCounts : WalkCounts {
   std::uint64_t fragments = 0;
   std::uint64_t depthComplexityMax = 0;
+  std::uint64_t coveredPixels = 0;
 };
 
 struct TileOptions {
@@ -25,7 +26,9 @@ struct TileOptions {
   bool decideAllExactly = false;
 };
 
-inline constexpr std::size_t kFirstBatch = 2048;   // triangles; below it a tile is drawn in one go
+// A tile is met in batches when it has several times the layers that a fold needs at least. Each batch repeats the fold of the
+// pixels that the one before left open, so batches grow fast.
+inline constexpr double kBatchGrowth = 4;
 
 // Draws tiles with one fold. Owned by one thread.
 template <Fold F>
@@ -39,6 +42,8 @@ class TileRenderer {
     tile_.begin(frame_, index);
     if (!fold_.beginTile(tile_)) return;
     tile_.setUp(frame_, options_.decideAllExactly);
+    std::fill(std::begin(done_), std::end(done_), 0);
+    finished_ = 0;
     drawRect(BlockRect{0, 0, (tile_.width + kBlockSize - 1) / kBlockSize, (tile_.height + kBlockSize - 1) / kBlockSize});
   }
   const TileCounts& counts() const { return counts_; }
@@ -46,33 +51,39 @@ class TileRenderer {
 
  private:
   void drawRect(const BlockRect& rect) {
-    std::fill(std::begin(done_), std::end(done_), 0);
-    finished_ = 0;
     grid_.clear();
     grid_.setBudget(rect.count() == 1 ? ~std::size_t{0} : options_.gridBudgetBytes);
+    double layers = fold_.needsWholeStack() ? 0 : 2 + 2 * fold_.leastFragments();
+    const bool batches = layers > 0 && tile_.layers() > kBatchGrowth / 2 * layers;
+    if (batches && tile_.nearest.empty()) tile_.orderByDepth();
     const std::span<const TriangleSetup> all = tile_.setups;
-    const bool batches = all.size() > kFirstBatch && !fold_.needsWholeStack();
-    if (batches && tile_.nearest.size() != all.size()) tile_.orderByDepth();
-    std::size_t end = batches ? kFirstBatch : all.size();
-    for (std::size_t begin = 0;; begin = end, end = std::min(end * 2, all.size())) {
-      const std::span<const TriangleSetup> batch = std::span<const TriangleSetup>(tile_.setups).subspan(begin, end - begin);
-      if (!collectFragments(batch, tile_.format, rect, finished_, grid_)) return split(rect);
+    for (std::size_t begin = 0;; layers *= kBatchGrowth) {
+      const std::size_t end = batches ? std::max(tile_.setupsOfLayers(layers), begin) : all.size();
+      if (!collectFragments(all.subspan(begin, end - begin), tile_.format, rect, finished_, grid_)) return split(rect);
       const bool last = end == all.size();
       if (foldRect(rect, last ? ~std::uint64_t{0} : tile_.nearest[end]) || last) break;
+      begin = end;
     }
-    for (int b = 0; b < kBlocksPerTile; ++b) {
-      for (std::uint32_t n : grid_.block(b).counts) {
-        counts_.fragments += n;
-        counts_.depthComplexityMax = std::max<std::uint64_t>(counts_.depthComplexityMax, n);
-      }
+    for (int b = 0; b < kBlocksPerTile; ++b) countFragments(b);
+  }
+
+  void countFragments(int b) {
+    for (std::uint32_t n : grid_.block(b).counts) {
+      counts_.fragments += n;
+      counts_.coveredPixels += n > 0;
+      counts_.depthComplexityMax = std::max<std::uint64_t>(counts_.depthComplexityMax, n);
     }
   }
 
   void split(const BlockRect& rect) {
-    // What the grid could not take is drawn block by block.
+    // What the grid could not take is drawn block by block; blocks and pixels that an earlier batch finished stay as they are.
+    for (int b = 0; b < kBlocksPerTile; ++b) {
+      if (finished_ >> b & 1) countFragments(b);
+    }
     grid_ = FragmentGrid(options_.gridBudgetBytes);
     for (int by = rect.by0; by < rect.by1; ++by) {
       for (int bx = rect.bx0; bx < rect.bx1; ++bx) {
+        if (finished_ >> (by * kBlocksPerSide + bx) & 1) continue;
         drawRect({bx, by, bx + 1, by + 1});
         grid_ = FragmentGrid(options_.gridBudgetBytes);
       }
@@ -140,6 +151,7 @@ TileCounts renderTiles(const Frame& frame, const TileOptions& options, MakeFold 
   for (const auto& renderer : renderers) {
     total.fragments += renderer.counts().fragments;
     total.depthComplexityMax = std::max(total.depthComplexityMax, renderer.counts().depthComplexityMax);
+    total.coveredPixels += renderer.counts().coveredPixels;
     total.decidedExactly += renderer.counts().decidedExactly;
     total.coplanarPixels += renderer.counts().coplanarPixels;
   }

@@ -35,6 +35,9 @@ Corners cornersOf(const Frame& frame, std::uint32_t object, std::uint32_t refere
 
 bool mirrors(const glm::dmat4& m) { return glm::determinant(glm::dmat3(m)) < 0; }
 
+// A triangle covers about half of its bounds.
+double layersOf(const TriangleSetup& t, int pixels) { return 0.5 * (t.x1 - t.x0 + 1) * (t.y1 - t.y0 + 1) / pixels; }
+
 }  // namespace
 
 Frame::Frame(const Scene& scene_, const PlaneClasses& planes_, const View& view_)
@@ -168,6 +171,18 @@ void Tile::scaleDepths(const Frame& frame, bool decideAllExactly) {
     if (slot.uncertainty <= kCoarse) common = std::max(common, slot.uncertainty);
   }
   for (TileSlot& slot : slots) slot.uncertainty = std::max(slot.uncertainty, common);
+}
+
+double Tile::layers() const {
+  double sum = 0;
+  for (const TriangleSetup& t : setups) sum += layersOf(t, width * height);
+  return sum;
+}
+
+std::size_t Tile::setupsOfLayers(double layers) const {
+  std::size_t count = 0;
+  while (count < setups.size() && layers > 0) layers -= layersOf(setups[count++], width * height);
+  return count;
 }
 
 void Tile::orderByDepth() {

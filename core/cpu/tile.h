@@ -39,7 +39,9 @@ class Tile {
   std::vector<TileObject> objects;          // ascending
   std::vector<TileSlot> slots;              // ascending by primitive
   std::vector<TriangleSetup> setups;
-  std::vector<std::uint64_t> nearest;       // after orderByDepth: least certain depth of each setup and all after it
+  std::vector<std::uint64_t> nearest;       // after orderByDepth: lower bound of the depth of each setup and all after it
+  double layers() const;                    // about how many fragments a pixel has
+  std::size_t setupsOfLayers(double layers) const;   // how many setups, from the first, make about so many
   KeyFormat format;
   bool coarse = false;                      // some slot is so uncertain that its neighbours in depth order may not be adjacent
 

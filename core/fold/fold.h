@@ -27,6 +27,8 @@ concept Fold = requires(F fold, cpu::Tile& tile, const PixelStack& stack, std::u
   { fold.beginTile(tile) } -> std::same_as<bool>;
   // True when the tile's pixels need their whole stack before they start.
   { fold.needsWholeStack() } -> std::same_as<bool>;
+  // No pixel of the tile has enough with fewer fragments.
+  { fold.leastFragments() } -> std::convertible_to<double>;
   fold.beginPixel(stack);
   fold.fragment(slot);
   // The fragments since the last call lie at one depth. True: enough, nothing behind matters.

@@ -104,6 +104,8 @@ bool looksLikeObj(const Source& source) {
   TextCursor cursor(source, 0, '#');
   const std::string_view word = cursor.token();
   if (word.empty()) return std::find(source.data(), source.data() + source.size(), '#') != source.data() + source.size();
+  // A lone letter is no mesh: the "p" may be all that is left of a PLY.
+  if (cursor.atEnd()) return false;
   return word == "v" || word == "f" || word == "fo" || isOneOf(kPassedOver, word) || isOneOf(kNotRead, word);
 }
 

@@ -25,7 +25,11 @@ class AsciiValues {
  public:
   AsciiValues(const Source& source, std::size_t start) : cursor_(source, start) {}
 
-  std::size_t place() const { return cursor_.place(); }
+  // Of the next value, which may stand on a later line than the last one.
+  std::size_t place() {
+    cursor_.atEnd();
+    return cursor_.place();
+  }
   double coordinate(PlyType) { return cursor_.number("a coordinate"); }
   std::int64_t integer(PlyType) { return cursor_.integer("an integer"); }
   void skip(PlyType, std::uint64_t count) {

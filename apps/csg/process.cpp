@@ -1,0 +1,76 @@
+#include "apps/csg/process.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <map>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/error.h"
+
+extern char** environ;
+
+namespace copeel::csg {
+namespace {
+
+pid_t start(const Command& command) {
+  std::vector<char*> arguments;
+  for (const std::string& argument : command.arguments) arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, command.logPath.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
+  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  pid_t process = 0;
+  const int status = posix_spawnp(&process, arguments.front(), &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (status != 0) failMachine("{}: cannot be run: {}", command.arguments.front(), std::strerror(status));
+  return process;
+}
+
+int codeOf(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + (WIFSIGNALED(status) ? WTERMSIG(status) : 0); }
+
+// Waits for one of ours; other children of the program are none of our business.
+void waitForOne(std::map<pid_t, Command*>& running) {
+  const auto oldest = running.begin();
+  int status = 0;
+  while (waitpid(oldest->first, &status, 0) < 0 && errno == EINTR) {
+  }
+  oldest->second->exitCode = codeOf(status);
+  running.erase(oldest);
+}
+
+}  // namespace
+
+void runAll(std::vector<Command>& commands, unsigned atOnce) {
+  std::map<pid_t, Command*> running;
+  try {
+    for (Command& command : commands) {
+      if (running.size() >= std::max(atOnce, 1u)) waitForOne(running);
+      running.emplace(start(command), &command);
+    }
+  } catch (...) {
+    while (!running.empty()) waitForOne(running);
+    throw;
+  }
+  while (!running.empty()) waitForOne(running);
+}
+
+TemporaryFolder::TemporaryFolder(const std::string& parent) {
+  path_ = (std::filesystem::path(parent) / "copeel.XXXXXX").string();
+  if (!mkdtemp(path_.data())) failMachine("{}: no temporary folder can be made: {}", parent, std::strerror(errno));
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace copeel::csg

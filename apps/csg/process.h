@@ -1,0 +1,30 @@
+// Programs run without a shell, several at once, and a folder for their files that goes away again.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace copeel::csg {
+
+struct Command {
+  std::vector<std::string> arguments;   // the program first; looked up in PATH when it names no folder
+  std::string logPath;                  // both of its outputs go here
+  int exitCode = -1;                    // set when it has ended; 128 + signal where one ended it
+};
+
+// Runs all of them, at most `atOnce` at a time, and waits. Throws Error{Machine} where one cannot be started.
+void runAll(std::vector<Command>& commands, unsigned atOnce);
+
+class TemporaryFolder {
+ public:
+  explicit TemporaryFolder(const std::string& parent);   // Error{Machine} where none can be made
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+}  // namespace copeel::csg
