@@ -35,8 +35,8 @@ struct WholeProcesses {
   double scadSpeedup() const { return openscad.drew() && fromScad.drew() ? openscad.wall.minMs / fromScad.wall.minMs : 0; }
 };
 
-WholeProcesses measureProcesses(const Rung& rung, const RungFolders& folders, const std::filesystem::path& csg, const Programs& programs,
-                                const ProcessLimitsOfRun& limits);
+// `csg` as evaluate() wrote it, its source beside it.
+WholeProcesses measureProcesses(const Rung& rung, const std::filesystem::path& csg, const Programs& programs, const ProcessLimitsOfRun& limits);
 
 // Of a .csg alone.
 ProcessMeasurement measureProcess(const std::filesystem::path& csg, const Programs& programs, const ProcessLimitsOfRun& limits);
