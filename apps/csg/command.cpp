@@ -57,10 +57,11 @@ glm::dvec4 lookOf(const MeshArgument& file, const ColorScheme& scheme) {
 Model readMeshFiles(const CommandOptions& options, const std::vector<MeshArgument>& files) {
   std::vector<std::string> paths;
   for (const MeshArgument& file : files) paths.push_back(file.path);
-  Model model = readMeshes(paths, options.expression);
-  // The leaves are the files, in their order.
-  for (std::size_t i = 0; i < std::min(files.size(), model.leaves.size()); ++i) {
-    if (files[i].color || files[i].alpha) model.leaves[i].color = lookOf(files[i], options.scheme);
+  std::vector<std::size_t> fileOfLeaf;
+  Model model = readMeshes(paths, options.expression, &fileOfLeaf);
+  for (std::size_t i = 0; i < model.leaves.size(); ++i) {
+    const MeshArgument& file = files[fileOfLeaf[i]];
+    if (file.color || file.alpha) model.leaves[i].color = lookOf(file, options.scheme);
   }
   return model;
 }

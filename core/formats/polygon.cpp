@@ -132,10 +132,11 @@ bool PolygonCutter::clipEars() {
     previous_[i] = (i + count - 1) % count;
     next_[i] = (i + 1) % count;
   }
-  reflex_.clear();
+  std::vector<std::uint32_t> reflex;
   for (std::uint32_t i = 0; i < count; ++i) {
-    if (!(turn(i) > 0)) reflex_.push_back(i);
+    if (!(turn(i) > 0)) reflex.push_back(i);
   }
+  reflex_.build(points_, reflex);
   std::uint32_t left = count, corner = 0, refused = 0;
   while (left > 3 && workLeft_ > count) {
     --workLeft_;
@@ -165,20 +166,14 @@ bool PolygonCutter::isEar(std::uint32_t corner) {
   const glm::dvec2 a = points_[previous_[corner]], b = points_[corner], c = points_[next_[corner]];
   if (!(cross(a, b, c) > 0)) return false;
   const glm::dvec2 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
-  for (std::size_t i = 0; i < reflex_.size();) {
-    const std::uint32_t other = reflex_[i];
-    if (clipped_[other] || turn(other) > 0) {
-      reflex_[i] = reflex_.back();
-      reflex_.pop_back();
-      continue;
-    }
-    ++i;
+  return !reflex_.any(low, high, [&](std::uint32_t other) {
     workLeft_ -= workLeft_ > 0;
     const glm::dvec2 p = points_[other];
-    if (p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y || p == a || p == b || p == c) continue;
-    if (cross(a, b, p) >= 0 && cross(b, c, p) >= 0 && cross(c, a, p) >= 0) return false;
-  }
-  return true;
+    if (p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y || p == a || p == b || p == c) return false;
+    if (cross(a, b, p) < 0 || cross(b, c, p) < 0 || cross(c, a, p) < 0) return false;
+    // Clipping takes corners away and makes others convex: neither can be in the way any more.
+    return !clipped_[other] && !(turn(other) > 0);
+  });
 }
 
 void PolygonCutter::clip(std::uint32_t corner) {

@@ -1,6 +1,6 @@
 // Cuts a polygon in space into triangles: a strictly convex one as a fan, any other by clipping ears in its own plane.
 // n corners always give n - 2 triangles that use every corner and keep the polygon's orientation; collinear corners stay (they close T-junctions).
-// Cost: O(n) convex, O(n · reflex corners) otherwise.
+// Cost: O(n) for a convex polygon and, by a grid of the reflex corners, for the common others; O(n · reflex corners) at worst.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,8 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+
+#include "core/formats/point_grid.h"
 
 namespace copeel {
 
@@ -37,10 +39,10 @@ class PolygonCutter {
 
   std::vector<glm::dvec2> points_;                     // the corners in the polygon's plane, counter-clockwise
   std::vector<std::uint32_t> previous_, next_;         // the ring of corners not yet clipped
-  std::vector<std::uint32_t> reflex_;                  // corners that may lie in an ear; clipped and convex ones leave when met
+  PointGrid reflex_;                                   // corners that were not convex at first: only they can lie in an ear
   std::vector<std::uint8_t> clipped_;
   std::vector<glm::uvec3> triangles_;
-  std::uint64_t workLeft_ = 2'000'000'000;             // corner-in-ear tests, a few seconds; one polygon of 60,000 corners at worst
+  std::uint64_t workLeft_ = 500'000'000;               // corners looked at; a few seconds
 };
 
 }  // namespace copeel
