@@ -50,6 +50,7 @@ void CsgFold::setInitialState() {
     }
   }
   risen_.clear();
+  fallen_.clear();
   initialGates_ = gates_;
   initialStates_ = states_;
   dirty_ = false;
@@ -75,6 +76,7 @@ void CsgFold::startInsideStack(const PixelStack& stack) {
     if (eye_.fromStack[leaves_[slot.object]]) addWinding(slot.object, -slot.side);
   }
   risen_.clear();
+  fallen_.clear();
 }
 
 inline void CsgFold::addWinding(std::uint32_t leaf, std::int32_t change) {
@@ -96,31 +98,35 @@ inline void CsgFold::climb(std::uint32_t index, bool value) {
     gate.lacking -= value ? 1 : -1;
     const bool is = gate.isTrue();
     if (was == is) return;
-    if (gate.output != kNone && is) risen_.push_back(gate.output);
+    if (gate.output != kNone) noteToggle(gate.output, is);
     if (gate.parent == kNone) return;
     value = is != gate.negated;
     index = gate.parent;
   }
 }
 
+// What a result was before the group shows in its first change: a leaf of several uses may make it fall and rise again.
+void CsgFold::noteToggle(std::uint32_t output, bool rises) {
+  for (const auto* known : {&risen_, &fallen_}) {
+    if (std::find(known->begin(), known->end(), output) != known->end()) return;
+  }
+  (rises ? risen_ : fallen_).push_back(output);
+}
+
 bool CsgFold::closeGroup() {
   if (groupCount_ > 1) before_ = gates_;
   for (std::size_t i = 0; i < groupCount_; ++i) addWinding(slots_[group_[i]].object, slots_[group_[i]].side);
   if (!risen_.empty()) showRisen();
+  fallen_.clear();
   groupCount_ = 0;
   return enough_;
 }
 
 void CsgFold::showRisen() {
-  if (risen_.size() > 1) {
-    std::sort(risen_.begin(), risen_.end());
-    risen_.erase(std::unique(risen_.begin(), risen_.end()), risen_.end());
-  }
+  if (risen_.size() > 1) std::sort(risen_.begin(), risen_.end());
   for (std::uint32_t output : risen_) {
     // Only a result that was false before the whole group and is true after it shows a surface.
-    const std::uint32_t top = topOfOutput_[output];
-    const bool was = groupCount_ > 1 && before_[top].isTrue();
-    if (!was && gates_[top].isTrue() && !enough_) showSurface(output, groupCount_ == 1 ? group_[0] : showingFace(output));
+    if (gates_[topOfOutput_[output]].isTrue() && !enough_) showSurface(output, groupCount_ == 1 ? group_[0] : showingFace(output));
   }
   risen_.clear();
 }

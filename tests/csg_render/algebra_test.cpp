@@ -110,7 +110,7 @@ TEST(Algebra, tenThousandLevelsOfEveryOperation) {
       model.childIndices.insert(model.childIndices.end(), {inner, last});
     }
     model.root = static_cast<std::uint32_t>(model.nodes.size()) - 1;
-    const View view = lookAt({2.1, 2.2, 20}, {2, 2, 0}, 5, 5, 0.02);
+    const View view = lookAt({2.1, 2.2, 20}, {2.1, 2.2, 0}, 5, 5, 0.02);
     const csg::Frame frame = draw(model, view).frame;
     EXPECT_FLOAT_EQ(frame.depth.at(2, 2), operation == csg::Operation::Difference ? 17 : 16);
     EXPECT_EQ(frame.ids.at(2, 2), 10001);
@@ -121,11 +121,11 @@ TEST(Algebra, oneMeshUsedTenThousandTimes) {
   Tree tree = unite({});
   const auto mesh = share(box({0, 0, 0}, {1, 1, 1}));
   for (int i = 0; i < 10000; ++i) tree.children.push_back(leaf(mesh, {}, translation({i % 100, i / 100, 0})));
-  const View view = lookAt({50.2, 50.3, 200}, {50, 50, 0}, 60, 60, 0.01);
+  const View view = lookAt({50.2, 50.3, 200}, {50.2, 50.3, 0}, 60, 60, 0.01);
   const Drawing drawing = draw(modelOf(tree), view);
   EXPECT_EQ(drawing.stats.planeClasses, 204u);   // 101 + 101 + 2
   for (int y = 15; y < 45; ++y) {
-    for (int x = 15; x < 45; ++x) EXPECT_FLOAT_EQ(drawing.frame.depth.at(x, y), 199 * drawing.frame.depth.at(30, 30) / 199);
+    for (int x = 15; x < 45; ++x) EXPECT_FLOAT_EQ(drawing.frame.depth.at(x, y), 199);
   }
 }
 
