@@ -50,7 +50,6 @@ class CsgFold {
     group_[groupCount_++] = slot;
   }
   bool closeGroup();
-  bool enough() const { return enough_; }
   void endPixel(int x, int y) { sink_.pixel(x, y, surfaces_); }
 
  private:
