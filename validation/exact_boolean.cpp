@@ -119,7 +119,7 @@ std::optional<Solid> foldTree(const csg::Model& model, MakeLeaf makeLeaf, Join j
   return values[model.root];
 }
 
-std::optional<ExactResult> byCorefinement(const csg::Model& model, const std::vector<SurfaceMesh>& leaves) {
+std::optional<OracleMesh> byCorefinement(const csg::Model& model, const std::vector<SurfaceMesh>& leaves) {
   const auto solid = foldTree<SurfaceMesh>(
       model, [&](std::uint32_t leaf) { return std::optional<SurfaceMesh>(leaves[leaf]); },
       [](csg::Operation operation, const SurfaceMesh& a, const SurfaceMesh& b) -> std::optional<SurfaceMesh> {
@@ -129,58 +129,48 @@ std::optional<ExactResult> byCorefinement(const csg::Model& model, const std::ve
       });
   if (!solid) return std::nullopt;
 
-  ExactResult result;
-  result.kernel = "corefinement";
+  OracleMesh result;
   std::map<SurfaceMesh::Vertex_index, std::uint32_t> number;
-  for (const auto v : solid->vertices()) number[v] = addVertex(result.mesh, solid->point(v));
+  for (const auto v : solid->vertices()) number[v] = addVertex(result, solid->point(v));
   for (const auto f : solid->faces()) {
     std::vector<std::uint32_t> corners;
     for (const auto v : solid->vertices_around_face(solid->halfedge(f))) corners.push_back(number[v]);
-    for (std::size_t i = 2; i < corners.size(); ++i) result.mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+    for (std::size_t i = 2; i < corners.size(); ++i) result.triangles.push_back({corners[0], corners[i - 1], corners[i]});
   }
   return result;
 }
 
-std::optional<ExactResult> byNef(const csg::Model& model, std::vector<SurfaceMesh>& leaves) {
+std::optional<OracleMesh> byNef(const csg::Model& model, std::vector<SurfaceMesh>& leaves) {
   const auto solid = foldTree<Nef>(
       model, [&](std::uint32_t leaf) { return std::optional<Nef>(leaves[leaf].is_empty() ? Nef() : Nef(leaves[leaf])); },
       [](csg::Operation operation, const Nef& a, const Nef& b) { return std::optional<Nef>(combine(operation, a, b)); });
   if (!solid) return std::nullopt;
 
-  ExactResult result;
-  result.kernel = "nef";
+  OracleMesh result;
   std::vector<Point> points;
   std::vector<std::vector<std::size_t>> faces;
   CGAL::convert_nef_polyhedron_to_polygon_soup(*solid, points, faces, true);
-  for (const Point& p : points) addVertex(result.mesh, p);
-  for (const auto& f : faces) result.mesh.triangles.push_back({std::uint32_t(f[0]), std::uint32_t(f[1]), std::uint32_t(f[2])});
+  for (const Point& p : points) addVertex(result, p);
+  for (const auto& f : faces) result.triangles.push_back({std::uint32_t(f[0]), std::uint32_t(f[1]), std::uint32_t(f[2])});
   return result;
 }
 
 }  // namespace
 
-std::optional<ExactResult> exactBoolean(const csg::Model& model, ExactKernel kernel) {
-  if (model.root == csg::kNoNode) return ExactResult{{}, "corefinement"};
+std::optional<OracleMesh> exactBoolean(const csg::Model& model, ExactKernel kernel) {
+  if (model.root == csg::kNoNode) return OracleMesh{};
   std::vector<SurfaceMesh> leaves;
   for (std::uint32_t i = 0; i < model.leaves.size(); ++i) {
     std::optional<SurfaceMesh> mesh = surfaceMesh(leafMesh(model, i));
     if (!mesh) return std::nullopt;
     leaves.push_back(std::move(*mesh));
   }
-  // A failed assertion within CGAL is an exception; another kernel may still answer.
-  if (kernel != ExactKernel::Nef) {
-    try {
-      if (auto result = byCorefinement(model, leaves)) return result;
-    } catch (const std::exception&) {
-    }
+  // A failed assertion within CGAL is an exception: no answer.
+  try {
+    return kernel == ExactKernel::Nef ? byNef(model, leaves) : byCorefinement(model, leaves);
+  } catch (const std::exception&) {
+    return std::nullopt;
   }
-  if (kernel != ExactKernel::Corefinement) {
-    try {
-      return byNef(model, leaves);
-    } catch (const std::exception&) {
-    }
-  }
-  return std::nullopt;
 }
 
 }  // namespace copeel::validation

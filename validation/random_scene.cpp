@@ -11,7 +11,8 @@
 namespace copeel::validation {
 namespace {
 
-constexpr int kGrid = 8;                     // leaves begin at whole coordinates 0 … kGrid - 2
+constexpr int kGrid = 8;                     // the scene's size, about
+constexpr int kPlaces = 5;                   // leaves begin at whole coordinates 0 … kPlaces - 1, few enough that they meet
 constexpr double kTurnX = 10, kTurnY = 20, kTurnZ = 30;   // degrees, HARD_CASES.md 1
 constexpr double kFar = 1e6;
 
@@ -31,7 +32,7 @@ glm::dmat4 quarterTurn(int which) {
 std::string pointText(const glm::dvec3& p) { return fmt::format("[{}, {}, {}]", p.x, p.y, p.z); }
 
 SceneLeaf randomBox(Random& random) {
-  const glm::dvec3 size(random.between(1, 5), random.between(1, 5), random.between(1, 5));
+  const glm::dvec3 size(random.between(1, 6), random.between(1, 6), random.between(1, 6));
   SceneLeaf leaf{fmt::format("cube(size = {}, center = false);", pointText(size)), glm::dmat4(1.0), {}};
   for (int i = 0; i < 8; ++i) leaf.corners.push_back({i & 1 ? size.x : 0, i & 2 ? size.y : 0, i & 4 ? size.z : 0});
   return leaf;
@@ -39,7 +40,7 @@ SceneLeaf randomBox(Random& random) {
 
 SceneLeaf randomCylinder(Random& random) {
   static constexpr int kFacets[] = {4, 6, 8, 12};
-  const int facets = kFacets[random.below(4)], height = random.between(1, 5), radius = random.between(1, 3);
+  const int facets = kFacets[random.below(4)], height = random.between(2, 6), radius = random.between(1, 3);
   const int top = random.below(4) == 0 ? random.below(3) : radius;
   const char* center = random.below(4) == 0 ? "true" : "false";
   return {fmt::format("cylinder($fn = {}, $fa = 12, $fs = 2, h = {}, r1 = {}, r2 = {}, center = {});", facets, height, radius, top, center),
@@ -54,7 +55,7 @@ SceneLeaf randomSphere(Random& random) {
 SceneLeaf randomLeaf(Random& random) {
   const int kind = random.below(10);
   SceneLeaf leaf = kind < 5 ? randomBox(random) : kind < 9 ? randomCylinder(random) : randomSphere(random);
-  const glm::dvec3 at(random.below(kGrid - 1), random.below(kGrid - 1), random.below(kGrid - 1));
+  const glm::dvec3 at(random.below(kPlaces), random.below(kPlaces), random.below(kPlaces));
   leaf.worldFromObject[3] = glm::dvec4(at, 1);
   return leaf;
 }
@@ -62,8 +63,8 @@ SceneLeaf randomLeaf(Random& random) {
 // A tree over leaves first … last - 1, cut at random places.
 std::string randomTree(Random& random, int first, int last) {
   if (last - first == 1) return fmt::format("@{};", first);
-  static constexpr const char* kNames[] = {"union", "difference", "difference", "intersection", "union"};
-  std::string text = fmt::format("{}() {{\n", kNames[random.below(5)]);
+  static constexpr const char* kNames[] = {"union", "difference", "difference", "intersection", "difference", "union"};
+  std::string text = fmt::format("{}() {{\n", kNames[random.below(6)]);
   while (first < last) {
     const int cut = random.between(first + 1, first == 0 ? std::max(1, last - 1) : last);
     text += randomTree(random, first, cut) + "\n";
@@ -82,7 +83,7 @@ glm::dvec3 randomDirection(Random& random) {
 // Any direction in perspective; along an axis, orthographic; along an axis in perspective, or from within the model.
 std::vector<Look> randomLooks(Random& random) {
   const glm::dvec3 center(kGrid / 2, kGrid / 2, kGrid / 2);
-  const double distance = 4.5 * kGrid;
+  const double distance = 4 * kGrid;
   std::vector<Look> looks(3);
   for (int i = 0; i < 3; ++i) {
     glm::dvec3 away = randomDirection(random);

@@ -164,7 +164,7 @@ std::optional<Crossing> RayCaster::crossTriangle(const Ray& ray, std::uint32_t i
   return c;
 }
 
-const mpq_class& RayCaster::exactDepth(const Ray& ray, Crossing& c) const {
+const mpq_class& RayCaster::exactDepth(const Ray& ray, const Crossing& c) const {
   if (!c.exactDepth) {
     const Sight<mpq_class>& s = exactSight(triangles_[c.triangle]);
     const mpq_class u(ray.u), v(ray.v);
@@ -173,7 +173,7 @@ const mpq_class& RayCaster::exactDepth(const Ray& ray, Crossing& c) const {
   return *c.exactDepth;
 }
 
-int RayCaster::compareDepth(const Ray& ray, Crossing& a, Crossing& b) const {
+int RayCaster::compareDepth(const Ray& ray, const Crossing& a, const Crossing& b) const {
   if (const std::optional<int> sign = signOf(a.depth - b.depth); sign && *sign != 0) return *sign;
   if (exactPlane(triangles_[a.triangle]) == exactPlane(triangles_[b.triangle])) return 0;
   return cmp(exactDepth(ray, a), exactDepth(ray, b));
@@ -183,13 +183,14 @@ std::vector<Crossing> RayCaster::cross(const Ray& ray) const {
   std::vector<Crossing> out;
   for (const std::uint32_t index : tileOf(ray))
     if (auto c = crossTriangle(ray, index)) out.push_back(std::move(*c));
-  // Insertion keeps equal depths in order of triangle and compares neighbours only.
-  for (std::size_t i = 1; i < out.size(); ++i)
-    for (std::size_t j = i; j > 0 && compareDepth(ray, out[j - 1], out[j]) > 0; --j) std::swap(out[j - 1], out[j]);
+  std::sort(out.begin(), out.end(), [&](const Crossing& a, const Crossing& b) {
+    const int order = compareDepth(ray, a, b);
+    return order != 0 ? order < 0 : a.triangle < b.triangle;
+  });
   return out;
 }
 
-bool RayCaster::sameDepth(const Ray& ray, Crossing& near, Crossing& far, double tolerance) const {
+bool RayCaster::sameDepth(const Ray& ray, const Crossing& near, const Crossing& far, double tolerance) const {
   if (compareDepth(ray, near, far) == 0) return true;
   if (tolerance <= 0) return false;
   // A gap g along the ray is g·|N·D|/|N| along the normal; compare squares, which are rational.

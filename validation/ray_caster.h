@@ -27,7 +27,7 @@ struct Crossing {
   std::uint32_t triangle = 0;    // running through all meshes
   int winding = 0;               // +1: the ray enters, -1: it leaves
   Bounded depth;                 // along the view axis, model units
-  std::shared_ptr<const mpq_class> exactDepth;   // made when first needed
+  mutable std::shared_ptr<const mpq_class> exactDepth;   // made when first needed
 };
 
 // A pixel's ray, in the coordinates of view.h.
@@ -48,7 +48,7 @@ class RayCaster {
 
   // Whether two crossings of one ray count as one depth: exactly equal, or both planes pass within `tolerance` (model units, measured along
   // their normals) of the other crossing's point.
-  bool sameDepth(const Ray& ray, Crossing& near, Crossing& far, double tolerance) const;
+  bool sameDepth(const Ray& ray, const Crossing& near, const Crossing& far, double tolerance) const;
 
   // The cosine between a ray and a triangle's normal, and the depth at which the ray meets the triangle's plane. In plain double.
   double cosine(const Ray& ray, std::uint32_t triangle) const;
@@ -75,8 +75,8 @@ class RayCaster {
   std::uint32_t exactPlane(const Triangle& triangle) const;
   std::optional<Crossing> crossTriangle(const Ray& ray, std::uint32_t index) const;
   std::optional<int> side(const Ray& ray, const Triangle& triangle, int edge) const;
-  const mpq_class& exactDepth(const Ray& ray, Crossing& crossing) const;
-  int compareDepth(const Ray& ray, Crossing& a, Crossing& b) const;
+  const mpq_class& exactDepth(const Ray& ray, const Crossing& crossing) const;
+  int compareDepth(const Ray& ray, const Crossing& a, const Crossing& b) const;
   const std::vector<std::uint32_t>& tileOf(const Ray& ray) const;
 
   std::vector<OracleMesh> meshes_;

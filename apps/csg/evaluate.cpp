@@ -49,6 +49,11 @@ class Evaluator {
     std::uint8_t modifiers = 0;
     std::uint32_t end = 0;               // index past the last descendant
     std::uint32_t firstPending = 0;      // its operands wait from here on
+    std::uint32_t placementCount = 1;    // the last of so many placements holds here
+  };
+
+  // Kept beside the frames: most levels of a deep nesting place nothing anew.
+  struct Placement {
     glm::dmat4 worldFromChild{1.0};
     std::optional<glm::dvec4> color;
   };
@@ -80,13 +85,22 @@ class Evaluator {
     frame.modifiers = node.modifiers;
     frame.end = node.subtreeEnd;
     frame.firstPending = static_cast<std::uint32_t>(pending_.size());
-    if (node.keyword == Keyword::Color && !frame.color) frame.color = colorOf(tree_, node);
-    if (node.keyword == Keyword::Multmatrix && !multiply(frame, node)) {
+    if (node.keyword == Keyword::Color && !placement().color) pushPlacement(frame).color = colorOf(tree_, node);
+    if (node.keyword == Keyword::Multmatrix && !multiply(pushPlacement(frame), node)) {
+      placements_.pop_back();
       addOperand(addNode(Operation::Union, pending_.size()), node.modifiers);
       return node.subtreeEnd;
     }
     open_.push_back(frame);
     return index + 1;
+  }
+
+  const Placement& placement() const { return placements_.back(); }
+
+  Placement& pushPlacement(Frame& frame) {
+    placements_.push_back(Placement(placements_.back()));
+    frame.placementCount = static_cast<std::uint32_t>(placements_.size());
+    return placements_.back();
   }
 
   static Operation operationOf(Keyword keyword) {
@@ -95,12 +109,12 @@ class Evaluator {
   }
 
   // False: the subtree vanishes.
-  bool multiply(Frame& frame, const SyntaxNode& node) {
+  bool multiply(Placement& inner, const SyntaxNode& node) {
     const glm::dmat4 matrix = matrixOf(tree_, node);
     const bool finite = isFinite(matrix);
     if (finite && glm::determinant(glm::dmat3(matrix)) != 0) {
-      frame.worldFromChild = frame.worldFromChild * matrix;
-      if (isFinite(frame.worldFromChild)) return true;
+      inner.worldFromChild = inner.worldFromChild * matrix;
+      if (isFinite(inner.worldFromChild)) return true;
     }
     warn(node, finite ? "a singular matrix flattens its children: they are left out"
                       : "a matrix with NaN or infinity: its children are left out");
@@ -114,7 +128,7 @@ class Evaluator {
     if (mesh) {
       made = addNode(Operation::Leaf, pending_.size());
       model_.nodes.back().leaf = static_cast<std::uint32_t>(model_.leaves.size());
-      model_.leaves.push_back({mesh, open_.back().worldFromChild, open_.back().color});
+      model_.leaves.push_back({mesh, placement().worldFromChild, placement().color});
     } else {
       made = addNode(Operation::Union, pending_.size());
     }
@@ -124,6 +138,7 @@ class Evaluator {
   void close() {
     const Frame frame = open_.back();
     open_.pop_back();
+    placements_.resize(open_.back().placementCount);
     const std::size_t count = pending_.size() - frame.firstPending;
     // A node over a single operand is that operand.
     const std::uint32_t made = count == 1 ? pending_.back() : addNode(frame.operation, frame.firstPending);
@@ -167,6 +182,7 @@ class Evaluator {
   Shapes& shapes_;
   Model model_;
   std::vector<Frame> open_;
+  std::vector<Placement> placements_{Placement{}};
   std::vector<std::uint32_t> pending_;   // operands whose operation is still open
 };
 

@@ -66,7 +66,7 @@ double scaleSlices(const Flat& flat, const LinearExtrusion& how) {
 double sliceCount(const Flat& flat, const LinearExtrusion& how) {
   if (how.slices) return *how.slices;
   const bool unlike = how.scale.x != how.scale.y;
-  if (how.hasTwist) return unlike ? std::max(twistSlices(flat, how), scaleSlices(flat, how)) : twistSlices(flat, how);
+  if (how.hasTwist) return twistSlices(flat, how);
   return unlike ? scaleSlices(flat, how) : 1;
 }
 

@@ -24,16 +24,27 @@ glm::dvec3 meanNormal(const std::vector<glm::dvec3>& corners) {
   return normal;
 }
 
-// Drops the coordinate along which the face is seen largest; a left turn stays one where the normal looks at us.
+// Drops the coordinate along which the face is seen largest. Axes and signs are those of libtess2, which openscad uses: they decide ties.
 std::vector<glm::dvec2> projected(const std::vector<glm::dvec3>& corners, const glm::dvec3& normal) {
   const glm::dvec3 size = glm::abs(normal);
-  int u = 0, v = 1;
-  double direction = normal.z;
-  if (size.x > size.y && size.x > size.z) u = 1, v = 2, direction = normal.x;
-  else if (size.y > size.z) u = 2, v = 0, direction = normal.y;
+  int axis = size.y > size.x ? 1 : 0;
+  if (size.z > size[axis]) axis = 2;
+  const double sign = normal[axis] > 0 ? 1 : -1;
   std::vector<glm::dvec2> flat;
-  for (const glm::dvec3& p : corners) flat.push_back(direction < 0 ? glm::dvec2(p[v], p[u]) : glm::dvec2(p[u], p[v]));
+  for (const glm::dvec3& p : corners) flat.emplace_back(p[(axis + 1) % 3], sign * p[(axis + 2) % 3]);
   return flat;
+}
+
+// The diagonal of a convex quad: true for 0-2. Delaunay's; where all four corners lie on one circle, what libtess2's sweep leaves: the
+// diagonal from the rightmost corner, unless the leftmost one is opposite.
+bool takesFirstDiagonal(const std::vector<glm::dvec2>& quad) {
+  const double circle = inCircle(quad[0], quad[1], quad[2], quad[3]);
+  if (circle != 0) return circle < 0;
+  const auto less = [](const glm::dvec2& p, const glm::dvec2& q) { return p.x != q.x ? p.x < q.x : p.y < q.y; };
+  const auto right = std::max_element(quad.begin(), quad.end(), less) - quad.begin();
+  const auto left = std::min_element(quad.begin(), quad.end(), less) - quad.begin();
+  const bool evenDiagonal = right % 2 == 0;
+  return (right + 2) % 4 == left ? !evenDiagonal : evenDiagonal;
 }
 
 bool isBent(const std::vector<glm::dvec3>& corners, const glm::dvec3& normal) {
@@ -56,7 +67,9 @@ class FaceBuilder {
     const glm::dvec3 normal = meanNormal(corners_);
     const std::vector<glm::dvec2> flat = projected(corners_, normal);
     const bool bent = isBent(corners_, normal);
-    if (!bent && isConvexLoop(flat)) return builder_.addConvexFacet(face);
+    const bool convex = isConvexLoop(flat);
+    if (!bent && convex) return builder_.addConvexFacet(face);
+    if (bent && convex && face.size() == 4) return addBentQuad(face, takesFirstDiagonal(flat) ? 0 : 1);
     const std::uint32_t end[] = {static_cast<std::uint32_t>(face.size())};
     std::optional<std::vector<glm::uvec3>> triangles = triangulate(flat, end);
     builder_.beginFacet();
@@ -68,6 +81,11 @@ class FaceBuilder {
   }
 
  private:
+  void addBentQuad(std::span<const std::uint32_t> face, std::size_t first) {
+    builder_.addTriangleFacet(face[first], face[first + 1], face[first + 2]);
+    builder_.addTriangleFacet(face[first], face[first + 2], face[(first + 3) % 4]);
+  }
+
   // For faces that cross themselves: signed, it covers what winding numbers count.
   static std::vector<glm::uvec3> fan(std::size_t count) {
     std::vector<glm::uvec3> triangles;

@@ -14,7 +14,8 @@ constexpr std::size_t kLetters = 26;
 
 class Expression {
  public:
-  Expression(const std::vector<std::string>& paths, const std::string& text, Model& model) : paths_(paths), text_(text), model_(model) {}
+  Expression(const std::vector<std::string>& paths, const std::string& text, Model& model, std::vector<std::size_t>* fileOfLeaf)
+      : paths_(paths), text_(text), model_(model), fileOfLeaf_(fileOfLeaf) {}
 
   void parse() {
     bool wantsOperand = true;
@@ -109,6 +110,7 @@ class Expression {
     node.operation = Operation::Leaf;
     node.leaf = static_cast<std::uint32_t>(model_.leaves.size());
     model_.leaves.push_back({mesh, glm::dmat4(1.0), std::nullopt});
+    if (fileOfLeaf_) fileOfLeaf_->push_back(index);
     model_.nodes.push_back(node);
     return static_cast<std::uint32_t>(model_.nodes.size() - 1);
   }
@@ -124,6 +126,7 @@ class Expression {
   const std::vector<std::string>& paths_;
   const std::string& text_;
   Model& model_;
+  std::vector<std::size_t>* fileOfLeaf_;   // null: not wanted
   std::size_t at_ = 0;
   std::vector<std::uint32_t> operands_;
   std::vector<char> operators_;
@@ -136,15 +139,18 @@ std::string nameOf(std::size_t index) {
 
 }  // namespace
 
-Model readMeshes(const std::vector<std::string>& paths, const std::string& expression) {
+Model readMeshes(const std::vector<std::string>& paths, const std::string& expression, std::vector<std::size_t>* fileOfLeaf) {
   if (paths.empty()) failUsage("no mesh is given");
   Model model;
   std::string text = expression;
   if (text.find_first_not_of(" \t") == std::string::npos) {
     text.clear();
-    for (std::size_t i = 0; i < paths.size(); ++i) text += (i == 0 ? "" : "+") + nameOf(i);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      if (i > 0) text += '+';
+      text += nameOf(i);
+    }
   }
-  Expression(paths, text, model).parse();
+  Expression(paths, text, model, fileOfLeaf).parse();
   return model;
 }
 

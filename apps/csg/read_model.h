@@ -26,6 +26,7 @@ Model parseCsg(const std::string& text, const std::string& name, const std::stri
 // Mesh files, united, or combined by an expression over A, B, C … in the order of the files: + or | union, - difference, & or * intersection,
 // parentheses; & binds tighter than + and -, which associate to the left. Beyond Z: M27, M28 … (M and a number counted from 1 names any
 // mesh). Leaves stand in the order of the expression, one for each time a mesh is named. Throws Error{Usage} for a bad expression.
-Model readMeshes(const std::vector<std::string>& paths, const std::string& expression);
+// `fileOfLeaf`, where wanted, receives the index of each leaf's file: a file has a leaf for each time it is named.
+Model readMeshes(const std::vector<std::string>& paths, const std::string& expression, std::vector<std::size_t>* fileOfLeaf = nullptr);
 
 }  // namespace copeel::csg

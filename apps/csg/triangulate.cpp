@@ -22,18 +22,6 @@ double orientationExact(const glm::dvec2& a, const glm::dvec2& b, const glm::dve
   return determinant > 0 ? 1.0 : determinant < 0 ? -1.0 : 0.0;
 }
 
-// Positive where d lies in the circle through a, b, c (a left turn). Not exact: it chooses shapes, not topology.
-double inCircle(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& d) {
-  const glm::dvec2 p = a - d, q = b - d, r = c - d;
-  const auto square = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
-  const double first = square(p) * (q.x * r.y - q.y * r.x);
-  const double second = square(q) * (r.x * p.y - r.y * p.x);
-  const double third = square(r) * (p.x * q.y - p.y * q.x);
-  const double sum = first + second + third;
-  // What rounding may have made counts as on the circle, so that a flip is never undone.
-  return std::abs(sum) > 1e-14 * (std::abs(first) + std::abs(second) + std::abs(third)) ? sum : 0.0;
-}
-
 struct Triangle {
   std::array<Index, 3> v;
   std::array<Index, 3> n;
@@ -430,6 +418,18 @@ double orientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c
   const double determinant = left - right;
   if (std::abs(determinant) > kOrientationBound * (std::abs(left) + std::abs(right))) return determinant;
   return orientationExact(a, b, c);
+}
+
+// Not exact: it chooses shapes, not topology.
+double inCircle(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& d) {
+  const glm::dvec2 p = a - d, q = b - d, r = c - d;
+  const auto square = [](const glm::dvec2& v) { return v.x * v.x + v.y * v.y; };
+  const double first = square(p) * (q.x * r.y - q.y * r.x);
+  const double second = square(q) * (r.x * p.y - r.y * p.x);
+  const double third = square(r) * (p.x * q.y - p.y * q.x);
+  const double sum = first + second + third;
+  // What rounding may have made counts as on the circle, so that a flip is never undone.
+  return std::abs(sum) > 1e-14 * (std::abs(first) + std::abs(second) + std::abs(third)) ? sum : 0.0;
 }
 
 std::optional<std::vector<glm::uvec3>> triangulate(std::span<const glm::dvec2> points, std::span<const std::uint32_t> loopEnds) {

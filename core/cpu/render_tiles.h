@@ -4,7 +4,6 @@
 // growing batches and left as soon as every pixel has had enough. The result does not depend on threads, splits or batches.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 
 #include <tbb/enumerable_thread_specific.h>
@@ -15,7 +14,8 @@
 
 namespace copeel::cpu {
 
-struct TileCounts : WalkCounts {
+struct TileCounts {
+  WalkCounts walk;
   std::uint64_t fragments = 0;
   std::uint64_t depthComplexityMax = 0;
   std::uint64_t coveredPixels = 0;
@@ -36,21 +36,25 @@ class TileRenderer {
  public:
   TileRenderer(const Frame& frame, const TileOptions& options, F fold)
       : frame_(frame), options_(options), fold_(std::move(fold)), grid_(options.gridBudgetBytes),
-        exact_(frame.scene, frame.planes, frame.depths, frame.view) {}
+        exact_(frame.scene, frame.planes, frame.depths, frame.view), walker_(fold_, exact_) {}
+  TileRenderer(const TileRenderer&) = delete;
 
   void draw(int index) {
     tile_.begin(frame_, index);
     if (!fold_.beginTile(tile_)) return;
     tile_.setUp(frame_, options_.decideAllExactly);
+    std::fill(std::begin(done_), std::end(done_), 0);
+    finished_ = 0;
     drawRect(BlockRect{0, 0, (tile_.width + kBlockSize - 1) / kBlockSize, (tile_.height + kBlockSize - 1) / kBlockSize});
   }
-  const TileCounts& counts() const { return counts_; }
-  F& fold() { return fold_; }
+  TileCounts counts() const {
+    TileCounts counts = counts_;
+    counts.walk = walker_.counts();
+    return counts;
+  }
 
  private:
   void drawRect(const BlockRect& rect) {
-    std::fill(std::begin(done_), std::end(done_), 0);
-    finished_ = 0;
     grid_.clear();
     grid_.setBudget(rect.count() == 1 ? ~std::size_t{0} : options_.gridBudgetBytes);
     double layers = fold_.needsWholeStack() ? 0 : 2 + 2 * fold_.leastFragments();
@@ -61,23 +65,29 @@ class TileRenderer {
       const std::size_t end = batches ? std::max(tile_.setupsOfLayers(layers), begin) : all.size();
       if (!collectFragments(all.subspan(begin, end - begin), tile_.format, rect, finished_, grid_)) return split(rect);
       const bool last = end == all.size();
-      if (foldRect(rect, last ? ~std::uint64_t{0} : tile_.nearest[end]) || last) break;
+      if (foldRect(rect, last ? kNoLimit : tile_.nearest[end]) || last) break;
       begin = end;
     }
-    for (int b = 0; b < kBlocksPerTile; ++b) {
-      for (std::uint32_t n : grid_.block(b).counts) {
-        counts_.fragments += n;
-        counts_.coveredPixels += n > 0;
-        counts_.depthComplexityMax = std::max<std::uint64_t>(counts_.depthComplexityMax, n);
-      }
+    for (int b = 0; b < kBlocksPerTile; ++b) countFragments(b);
+  }
+
+  void countFragments(int b) {
+    for (std::uint32_t n : grid_.block(b).counts) {
+      counts_.fragments += n;
+      counts_.coveredPixels += n > 0;
+      counts_.depthComplexityMax = std::max<std::uint64_t>(counts_.depthComplexityMax, n);
     }
   }
 
   void split(const BlockRect& rect) {
-    // What the grid could not take is drawn block by block.
+    // What the grid could not take is drawn block by block; blocks and pixels that an earlier batch finished stay as they are.
+    for (int b = 0; b < kBlocksPerTile; ++b) {
+      if (finished_ >> b & 1) countFragments(b);
+    }
     grid_ = FragmentGrid(options_.gridBudgetBytes);
     for (int by = rect.by0; by < rect.by1; ++by) {
       for (int bx = rect.bx0; bx < rect.bx1; ++bx) {
+        if (finished_ >> (by * kBlocksPerSide + bx) & 1) continue;
         drawRect({bx, by, bx + 1, by + 1});
         grid_ = FragmentGrid(options_.gridBudgetBytes);
       }
@@ -101,6 +111,7 @@ class TileRenderer {
   bool foldBlock(int b, int x, int y, std::uint64_t limit) {
     FragmentGrid::Block& block = grid_.block(b);
     sortBlock(block);
+    walker_.begin(tile_, limit);
     const int columns = std::min(kBlockSize, tile_.width - x), rows = std::min(kBlockSize, tile_.height - y);
     bool all = true;
     for (int row = 0; row < rows; ++row) {
@@ -109,7 +120,7 @@ class TileRenderer {
         if (done_[b] >> p & 1) continue;
         const PixelStack stack{block.keys.get() + p, block.counts[p], kBlockPixels, tile_.format, tile_.slots.data()};
         const int px = tile_.x0 + x + column, py = tile_.y0 + y + row;
-        if (walkPixel(fold_, stack, tile_.coarse, limit, px, py, exact_, exactStack_, counts_) == Walk::Finished) {
+        if (walker_.walk(stack, px, py) == Walk::Finished) {
           fold_.endPixel(px, py);
           done_[b] |= std::uint64_t{1} << p;
         } else {
@@ -126,7 +137,7 @@ class TileRenderer {
   Tile tile_;
   FragmentGrid grid_;
   ExactOrder exact_;
-  ExactStack exactStack_;
+  Walker<F> walker_;
   std::uint64_t done_[kBlocksPerTile] = {};   // pixels, by block
   std::uint32_t finished_ = 0;                // blocks
   TileCounts counts_;
@@ -143,11 +154,12 @@ TileCounts renderTiles(const Frame& frame, const TileOptions& options, MakeFold 
   }, tbb::simple_partitioner());
   TileCounts total;
   for (const auto& renderer : renderers) {
-    total.fragments += renderer.counts().fragments;
-    total.depthComplexityMax = std::max(total.depthComplexityMax, renderer.counts().depthComplexityMax);
-    total.coveredPixels += renderer.counts().coveredPixels;
-    total.decidedExactly += renderer.counts().decidedExactly;
-    total.coplanarPixels += renderer.counts().coplanarPixels;
+    const TileCounts counts = renderer.counts();
+    total.fragments += counts.fragments;
+    total.depthComplexityMax = std::max(total.depthComplexityMax, counts.depthComplexityMax);
+    total.coveredPixels += counts.coveredPixels;
+    total.walk.decidedExactly += counts.walk.decidedExactly;
+    total.walk.coplanarPixels += counts.walk.coplanarPixels;
   }
   return total;
 }

@@ -64,6 +64,31 @@ TEST_F(Output, PictureDepthAndIdsAgreeOnWhatIsSeen) {
   EXPECT_EQ(contentOf(folder_ / "a.pgm").substr(0, 2), "P5");
 }
 
+// Colours follow their files through an expression that names them in another order, and a name with a colon is a name.
+TEST_F(Output, MeshesKeepTheirLook) {
+  const std::string corners = "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  write("a.off", "OFF\n4 4 0\n0 0 0\n10 0 0\n0 10 0\n0 0 10\n" + corners);
+  write("b:c.off", "OFF\n4 4 0\n20 0 0\n30 0 0\n20 10 0\n20 0 10\n" + corners);
+  ASSERT_EQ(run({"csg", "a.off:color=#ff0000", "b:c.off:color=#00f,alpha=1", "--expr", "B + A", "--shading", "none", "-o", "a.png", "--camera",
+                 "15,0,0,90,0,0,120"})
+                .exitCode,
+            0);
+  const Image<Rgb8> image = readPng((folder_ / "a.png").string());
+  bool redLeft = false, blueRight = false, other = false;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const Rgb8 pixel = image.at(x, y);
+      const bool isLeft = x < image.width / 2;
+      if (pixel == Rgb8{255, 0, 0} && isLeft) redLeft = true;
+      else if (pixel == Rgb8{0, 0, 255} && !isLeft) blueRight = true;
+      else if (pixel != Rgb8{255, 255, 229}) other = true;
+    }
+  }
+  EXPECT_TRUE(redLeft);
+  EXPECT_TRUE(blueRight);
+  EXPECT_FALSE(other);
+}
+
 TEST_F(Output, DashIsStandardOutput) {
   const Outcome outcome = run({"csg", "part.csg", "-o", "-"});
   EXPECT_EQ(outcome.exitCode, 0);
@@ -84,7 +109,7 @@ TEST_F(Output, BadInputsAreExitOne) {
   write("cut.csg", "difference() { cube(size = [1, 2");
   write("nonsense.csg", "\x7f" "ELF\x02\x01\x01");
   write("cut.off", "OFF\n8 6 0\n0 0 0\n");
-  write("other.ply", "OFF\n0 0 0\n");
+  write("other.ply", "%PDF-1.4\n%\xe2\xe3\n");
   write("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const Words before = files();
   for (const char* name : {"missing.csg", "missing.stl", "folder.csg", "empty.stl", "cut.csg", "nonsense.csg", "cut.off", "other.ply", "nan.obj"}) {

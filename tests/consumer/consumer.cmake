@@ -1,0 +1,20 @@
+# Each step must succeed; the program says what it saw.
+function(step)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  message("${output}")
+  if(result)
+    message(FATAL_ERROR "failed: ${ARGV}")
+  endif()
+  set(STEP_OUTPUT "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${FOLDER})
+step(${CMAKE_COMMAND} --install ${BUILD} --component library --prefix ${FOLDER}/prefix)
+step(${CMAKE_COMMAND} -S ${SOURCE} -B ${FOLDER}/build -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${FOLDER}/prefix
+     -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}")
+step(${CMAKE_COMMAND} --build ${FOLDER}/build)
+step(${FOLDER}/build/consumer ${MESH})
+if(NOT STEP_OUTPUT MATCHES "[1-9][0-9]* pixels")
+  message(FATAL_ERROR "the consumer saw nothing")
+endif()
+file(REMOVE_RECURSE ${FOLDER})

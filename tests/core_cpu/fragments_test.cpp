@@ -1,0 +1,106 @@
+// Pixels of very many fragments: none is lost, whatever a tile must do to hold them.
+#include <gtest/gtest.h>
+
+#include "tests/support/meshes.h"
+#include "tests/support/stacks.h"
+#include "tests/support/views.h"
+
+namespace copeel::test {
+namespace {
+
+View above(int size, double pixel = 0.01) { return lookAt({0.31, 0.33, 50}, {0.31, 0.33, 0}, size, size, pixel, false); }
+
+struct Prepared {
+  explicit Prepared(const Mesh& mesh, View v, double tolerance = 0) : scene({{share(mesh)}}), planes(scene, tolerance), view(v), frame(scene, planes, view) {}
+  Scene scene;
+  PlaneClasses planes;
+  View view;
+  cpu::Frame frame;
+};
+
+// `count` triangles over one another, in layers `gap` apart.
+Mesh pile(unsigned count, double gap) {
+  Mesh mesh;
+  for (unsigned i = 0; i < count; ++i) {
+    const double z = i * gap;
+    mesh.vertices.insert(mesh.vertices.end(), {{-1, -1, z}, {3, -1, z}, {-1, 3, z}});
+    mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+  }
+  return mesh;
+}
+
+TEST(Fragments, tenThousandLayersInOnePixelKeepTheirOrder) {
+  const unsigned count = 10000;
+  const Prepared p(pile(count, 1e-3), above(1));
+  const Stacks stacks = stacksOf(p.frame);
+  ASSERT_EQ(stacks.at(0, 0).size(), count);
+  for (unsigned i = 0; i < count; ++i) ASSERT_EQ(stacks.at(0, 0)[i][0].primitive, count - 1 - i);
+  EXPECT_EQ(stacks.counts.depthComplexityMax, count);
+}
+
+TEST(Fragments, coplanarOnesInOnePixelAreOneGroup) {
+  for (const unsigned count : {1u, 2u, 255u, 256u, 257u, 65537u}) {
+    const Prepared p(pile(count, 0), above(1));
+    ASSERT_EQ(p.planes.classes().size(), 1u);
+    const Stacks stacks = stacksOf(p.frame);
+    ASSERT_EQ(stacks.at(0, 0).size(), 1u);
+    const Group& group = stacks.at(0, 0)[0];
+    ASSERT_EQ(group.size(), count);
+    for (unsigned i = 0; i < count; ++i) ASSERT_EQ(group[i].primitive, i);
+    EXPECT_EQ(stacks.counts.coplanarPixels, count > 1);
+  }
+}
+
+void expectSame(const Stacks& a, const Stacks& b) {
+  ASSERT_EQ(a.pixels.size(), b.pixels.size());
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) ASSERT_EQ(a.pixels[i], b.pixels[i]) << "pixel " << i;
+  for (int n : b.ends) ASSERT_EQ(n, 1);
+}
+
+TEST(Fragments, aTileThatOverflowsItsBudgetIsSplitAndLosesNothing) {
+  for (const Mesh& mesh : {pile(100, 0.1), sphere(0.4, 90, 60), joined(pile(300, 0), sphere(0.4, 40, 40))}) {
+    const Prepared p(mesh, above(50, 0.02));
+    const Stacks whole = stacksOf(p.frame);
+    for (const std::size_t budget : {std::size_t{1}, std::size_t{20000}, std::size_t{300000}}) {
+      cpu::TileOptions tiny;
+      tiny.gridBudgetBytes = budget;
+      expectSame(whole, stacksOf(p.frame, tiny));
+    }
+  }
+}
+
+// Few groups are wanted, so that tiles of many triangles are met in batches; a budget splits them after a batch or two.
+TEST(Fragments, batchesAndSplitsGiveWhatOneBatchGives) {
+  for (const Mesh& mesh : {pile(1000, 1e-3), joined(pile(500, 0), pile(500, -1e-4)), sphere(0.4, 100, 70)}) {
+    const Prepared p(mesh, above(33, 0.02));
+    Stacks all = stacksOf(p.frame);
+    for (const std::size_t wanted : {std::size_t{1}, std::size_t{3}, std::size_t{40}}) {
+      Stacks some = all;
+      for (auto& pixel : some.pixels) pixel.resize(std::min(pixel.size(), wanted));
+      for (const std::size_t budget : {std::size_t{16} << 20, std::size_t{60000}, std::size_t{400000}}) {
+        cpu::TileOptions options;
+        options.gridBudgetBytes = budget;
+        expectSame(some, stacksOf(p.frame, options, {wanted}));
+      }
+    }
+  }
+}
+
+// Regression: pixels finished in an early batch were finished again when a later batch split the tile, and samples then counted twice.
+TEST(Fragments, aPixelIsFinishedOnceThoughALaterBatchSplitsItsTile) {
+  // The left half of the tile ends at once; behind the right half lies more than the grid takes.
+  const unsigned count = 1000;
+  const Mesh mesh = joined(pile(count, 1e-3), quad({-5, -5, 20}, {0.31, -5, 20}, {0.31, 5, 20}, {-5, 5, 20}));
+  const Prepared p(mesh, above(32, 0.02));
+  for (const std::size_t budget : {std::size_t{20000}, std::size_t{200000}, std::size_t{2000000}, std::size_t{16000000}}) {
+    cpu::TileOptions options;
+    options.gridBudgetBytes = budget;
+    const Stacks stacks = stacksOf(p.frame, options, {~std::size_t{0}, count});
+    EXPECT_EQ(stacks.at(3, 9).size(), 1u);
+    EXPECT_EQ(stacks.at(28, 9).size(), count);
+    for (int n : stacks.ends) ASSERT_EQ(n, 1) << "budget " << budget;
+  }
+}
+
+}  // namespace
+}  // namespace copeel::test

@@ -1,0 +1,266 @@
+// Files to models: the meaning of trees, what openscad evaluates, .scad, meshes and their expressions.
+#include <chrono>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "apps/csg/read_model.h"
+#include "core/error.h"
+#include "core/scene/scene.h"
+#include "tests/csg_read/openscad_peer.h"
+
+namespace copeel::csg {
+namespace {
+
+using namespace test;
+
+Model parse(const std::string& text) { return parseCsg(text, "part.csg", ".", ReadOptions{}); }
+
+template <class Call>
+std::string failureOf(Call call, ExitCode code) {
+  try {
+    call();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), code);
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    return error.what();
+  }
+  return "no failure";
+}
+
+// Whether a point inside all leaves is inside the solid: enough to see what a tree of leaves around the origin means.
+bool holdsOrigin(const Model& model) {
+  if (model.root == kNoNode) return false;
+  std::vector<bool> inside(model.nodes.size());
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const Node& node = model.nodes[i];
+    bool value = node.operation == Operation::Leaf || (node.operation == Operation::Intersection && node.childCount > 0);
+    for (std::uint32_t c = 0; c < node.childCount; ++c) {
+      const bool child = inside[model.childIndices[node.firstChild + c]];
+      if (node.operation == Operation::Union) value = value || child;
+      if (node.operation == Operation::Intersection) value = value && child;
+      if (node.operation == Operation::Difference) value = c == 0 ? child : value && !child;
+    }
+    inside[i] = value;
+  }
+  return inside[model.root];
+}
+
+// Leaves are cubes of size 2 around the origin: openscad's result is a cube or nothing.
+TEST(Semantics, emptyOperandsMeanWhatTheyMeanInOpenscad) {
+  SKIP_WITHOUT_OPENSCAD();
+  const std::string cube = "cube(2,center=true);";
+  const std::string none = "group();";
+  const std::string flat = "multmatrix([[1,0,0,0],[0,1,0,0],[0,0,0,0],[0,0,0,1]]) " + cube;
+  const std::string nan = "multmatrix([[1,0,0,0],[0,nan,0,0],[0,0,1,0],[0,0,0,1]]) { " + cube + " }";
+  const std::string trees[] = {
+      "difference() {" + none + cube + "}", "difference() {" + cube + none + "}", "intersection() {" + cube + none + "}",
+      "intersection() {" + none + cube + "}", "union() {" + none + cube + "}", "difference();", "union();", "intersection();",
+      "difference() { cube(0);" + cube + "}", "intersection() {" + cube + "sphere(r=-1);}", "difference() { %" + cube + cube + "}",
+      "difference() {" + cube + "%" + cube + "}", "intersection() {" + cube + "%cube(1);}", "difference() {" + cube + "#" + cube + "}",
+      "difference() { #" + cube + "cube(0); }", "difference() { " + nan + cube + "}", "difference() {" + cube + nan + "}",
+      "difference() {" + flat + cube + "}", "intersection() {" + cube + "}", "difference() {" + cube + cube + "}",
+      "difference() {" + cube + "difference() {" + cube + cube + "} }", "%" + cube, "group() { group() { group(); } }",
+      "difference() { intersection() {" + cube + none + "}" + cube + "}", "render(convexity = 1) { color([1,0,0,1]) " + cube + "}",
+      "multmatrix([[-1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) {" + cube + "}", "*" + cube, "difference() { *" + cube + cube + "}"};
+  for (const std::string& tree : trees) {
+    // openscad writes nan, but reads it as the name of a variable.
+    EXPECT_EQ(holdsOrigin(parse(tree)), !exportedBy("nan = 0 / 0;" + tree).empty()) << tree;
+  }
+}
+
+TEST(Semantics, theOuterColourShows) {
+  const Model model = parse("color([1,0,0,1]) { color([0,0,1,0.5]) cube(1); sphere(1); } cube(1); color(\"#8000\") cube(1); color(\"Tomato\",0.25) cube(1);");
+  EXPECT_EQ(*model.leaves[0].color, glm::dvec4(1, 0, 0, 1));
+  EXPECT_EQ(*model.leaves[1].color, glm::dvec4(1, 0, 0, 1));
+  EXPECT_FALSE(model.leaves[2].color.has_value());
+  EXPECT_EQ(model.leaves[3].color->w, 0);
+  EXPECT_EQ(model.leaves[4].color->w, 0.25);
+}
+
+TEST(Semantics, modifiersInsideTrees) {
+  const Model model = parse("difference() { cube(3); #cube(1); %sphere(1); } multmatrix([[1,0,0,9]]) { %group() { cube(2); } }");
+  ASSERT_EQ(model.highlight.size(), 1u);
+  EXPECT_EQ(model.nodes[model.highlight[0]].operation, Operation::Leaf);
+  ASSERT_EQ(model.background.size(), 2u);
+  EXPECT_EQ(model.leaves[model.nodes[model.background[1]].leaf].worldFromObject[3].x, 9);
+  EXPECT_EQ(parse("cube(1); multmatrix([[1,0,0,9]]) { !sphere(1); }").leaves.size(), 1u);
+  EXPECT_EQ(parse("cube(1); *sphere(1);").leaves.size(), 1u);
+}
+
+TEST(Semantics, aFlatShapeIsASlab) {
+  const Model model = parse("multmatrix([[1,0,0,5]]) square([2,3]);");
+  const Box box = boundingBox(*model.leaves.at(0).mesh);
+  EXPECT_EQ(box.min, glm::dvec3(0, 0, -0.5));
+  EXPECT_EQ(box.max, glm::dvec3(2, 3, 0.5));
+}
+
+TEST(Semantics, badValuesAreNamed) {
+  const auto failure = [](const char* text) { return failureOf([&] { parse(text); }, ExitCode::Input); };
+  EXPECT_EQ(failure("polyhedron(points=[[0,0,0],[1,0,0],[0,1,0]],\nfaces=[[0,1,7]]);"), "part.csg:2: face 0 names point 7, but there are 3 points");
+  EXPECT_EQ(failure("polyhedron(points=[[0,0,nan]],faces=[]);"), "part.csg:1: point 0 is not 3 finite numbers");
+  EXPECT_EQ(failure("\nsphere(1,$fn=1e9);"), "part.csg:2: sphere has more than 1000000 fragments");
+  EXPECT_EQ(failure("sphere(1,$fn=1e6);"), "part.csg:1: sphere has a sphere of more than 5e7 corners");
+  EXPECT_EQ(failure("multmatrix([[1,0,true,0]]) cube(1);"), "part.csg:1: an entry of the matrix is no number");
+  EXPECT_EQ(failure("color(\"no such\") cube(1);"), "part.csg:1: unknown colour 'no such'");
+  EXPECT_EQ(failure("import(file=\"no such.stl\");"), "part.csg:1: ./no such.stl: no such file");
+  EXPECT_EQ(failure("polygon(points=[[0,0],[1,0],[0,[1]]]);"), "part.csg:1: point 2 is not 2 finite numbers");
+  EXPECT_NE(failure("circle(1e300);cube([1:1e-9:2]);"), "no failure");
+  EXPECT_TRUE(parse("cube([inf,1,1]); sphere(r=nan); sphere(r=-nan); cylinder(h=inf); linear_extrude(height=nan) square(1); rotate_extrude(angle=nan) square(1);").leaves.empty());
+}
+
+class Files : public testing::Test {
+ protected:
+  std::string write(const std::string& name, const std::string& text) {
+    writeFile(folder_.path() + "/" + name, text);
+    return folder_.path() + "/" + name;
+  }
+  std::size_t fileCount(const std::string& folder) {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) count += entry.exists();
+    return count;
+  }
+
+  TemporaryFolder folder_{std::filesystem::temp_directory_path().string()};
+  ReadOptions options_{"openscad", {}, folder_.path() + "/cache"};
+};
+
+constexpr const char* kTetrahedron =
+    "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+
+TEST_F(Files, scadWithAnyNameImportsBesideItself) {
+  SKIP_WITHOUT_OPENSCAD();
+  std::filesystem::create_directory(folder_.path() + "/a dir");
+  write("a dir/tétra 1.off", kTetrahedron);
+  const std::string scad = write("a dir/-pärt \"1\".scad", "import(\"tétra 1.off\"); for (i = [0 : n]) translate([i, 0, 0]) cube(1); foo();");
+  options_.definitions = {"n=3"};
+  const Model model = readScad(scad, options_);
+  EXPECT_EQ(model.leaves.size(), 5u);
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_EQ(model.warnings[0], scad + ":1: Ignoring unknown module 'foo'");
+}
+
+TEST_F(Files, scadErrorsAreOneLine) {
+  SKIP_WITHOUT_OPENSCAD();
+  const auto failure = [&](const std::string& path, ExitCode code = ExitCode::Input) { return failureOf([&] { readScad(path, options_); }, code); };
+  const std::string bad = write("bad.scad", "cube(1);\ncube(;\n");
+  EXPECT_EQ(failure(bad), bad + ":2: Parser error: syntax error");
+  const std::string assertion = write("assert.scad", "cube(1);\n\nassert(false, \"no\");");
+  EXPECT_EQ(failure(assertion), assertion + ":3: Assertion 'false' failed: \"no\"");
+  EXPECT_NE(failure(folder_.path() + "/none.scad").find("none.scad"), std::string::npos);
+  EXPECT_NE(failure(folder_.path()).find(folder_.path()), std::string::npos);
+  options_.openscad = "no-such-openscad";
+  EXPECT_EQ(failure(bad, ExitCode::Machine), "no-such-openscad: cannot be run: No such file or directory");
+}
+
+TEST_F(Files, whatOpenscadMustEvaluateIsEvaluatedOnceAndKept) {
+  SKIP_WITHOUT_OPENSCAD();
+  write("tetra.off", kTetrahedron);
+  const std::string text = "hull() { cube(size = [1, 1, 0.1]); multmatrix([[1,0,0,3],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { cube(1); } }\n"
+                           "minkowski(convexity = 0) { cube(1); import(file = \"tetra.off\", timestamp = 7); }\n"
+                           "linear_extrude(height = 0.123456789) { offset(r = 1, $fn = 16) { square(3); } }\n"
+                           "resize(newsize = [4,0,0], auto = [1,1,1]) { import(file = \"tetra.off\"); }\n"
+                           "difference() { projection(cut = false) { cube(2); } circle(r = 1, $fn = 5); }\n"
+                           "hull();\n";
+  const std::string path = write("part.csg", text);
+  const Model first = readCsg(path, options_);
+  ASSERT_EQ(first.leaves.size(), 6u);
+  EXPECT_EQ(boundingBox(*first.leaves[0].mesh).max, glm::dvec3(4, 1, 1));
+  EXPECT_EQ(boundingBox(*first.leaves[1].mesh).max, glm::dvec3(2, 2, 2));
+  EXPECT_EQ(boundingBox(*first.leaves[2].mesh).max, glm::dvec3(4, 4, 0.123456789));
+  EXPECT_EQ(boundingBox(*first.leaves[3].mesh).max, glm::dvec3(4, 4, 4));
+  EXPECT_EQ(boundingBox(*first.leaves[4].mesh).max, glm::dvec3(2, 2, 0.5));
+  EXPECT_EQ(fileCount(options_.cacheFolder), 6u) << "entries only, no temporary files";
+  // The second time nothing is run; indentation and time stamps do not matter.
+  const auto begin = std::chrono::steady_clock::now();
+  const Model second = parseCsg("group() {\n" + text + "}", "b.csg", folder_.path(), options_);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(20));
+  EXPECT_EQ(second.leaves.size(), 6u);
+  // Another content of the same file is another shape.
+  write("tetra.off", std::string(kTetrahedron).replace(8, 5, "0 0 -1"));
+  readCsg(path, options_);
+  EXPECT_EQ(fileCount(options_.cacheFolder), 8u);
+}
+
+TEST_F(Files, textWithQuotesAndBackslashes) {
+  SKIP_WITHOUT_OPENSCAD();
+  const std::string csg = csgBy("linear_extrude(2) text(\"a\\\"b\\\\ü)\", size = 10); text(\"I\");");
+  const Model model = parseCsg(csg, "a.csg", folder_.path(), options_);
+  ASSERT_EQ(model.leaves.size(), 2u);
+  const std::vector<FloatTriangle> theirs = exportedBy("linear_extrude(2) text(\"a\\\"b\\\\ü)\", size = 10);");
+  EXPECT_NEAR(volumeOf(trianglesOf(*model.leaves[0].mesh)), volumeOf(theirs), 1e-6 * volumeOf(theirs));
+  EXPECT_EQ(pointsOf(trianglesOf(*model.leaves[0].mesh)), pointsOf(theirs));
+  EXPECT_EQ(openEdgeCount(trianglesOf(*model.leaves[0].mesh)), 0u);
+}
+
+TEST_F(Files, withoutOpenscadOneClearLine) {
+  options_.openscad = "no-such-openscad";
+  EXPECT_EQ(failureOf([&] { parseCsg("text(text=\"a\");", "a.csg", ".", options_); }, ExitCode::Machine),
+            "no-such-openscad: not found; the program openscad is needed for parts of this model");
+  EXPECT_EQ(parseCsg("cube(1);", "a.csg", ".", options_).leaves.size(), 1u);
+}
+
+std::string shapeOf(const Model& model) {
+  std::vector<std::string> texts;
+  for (const Node& node : model.nodes) {
+    std::string text;
+    if (node.operation == Operation::Leaf) text = fmt::format("{}", node.leaf);
+    const char sign = node.operation == Operation::Union ? '+' : node.operation == Operation::Difference ? '-' : '&';
+    for (std::uint32_t c = 0; c < node.childCount; ++c) text += (c == 0 ? "(" : std::string(1, sign)) + texts[model.childIndices[node.firstChild + c]];
+    texts.push_back(node.childCount ? text + ")" : text);
+  }
+  return texts[model.root];
+}
+
+TEST_F(Files, expressionsOverMeshes) {
+  const std::string path = write("t.off", kTetrahedron);
+  const std::vector<std::string> paths(30, path);
+  EXPECT_EQ(shapeOf(readMeshes({path, path, path}, "A - B + C")), "((0-1)+2)");
+  EXPECT_EQ(shapeOf(readMeshes({path, path, path}, "A-B&C")), "(0-(1&2))");
+  EXPECT_EQ(shapeOf(readMeshes({path, path, path}, " ( A | B ) * C ")), "((0+1)&2)");
+  EXPECT_EQ(shapeOf(readMeshes({path, path, path}, "A-(B-C)")), "(0-(1-2))");
+  EXPECT_EQ(readMeshes(paths, "").leaves.size(), 30u);
+  EXPECT_EQ(readMeshes(paths, "Z - M27 - M1").leaves.size(), 3u);
+  const Model twice = readMeshes({path, path}, "A - A - B");
+  EXPECT_EQ(twice.leaves[0].mesh, twice.leaves[1].mesh);
+  for (const char* bad : {"A -", "A B", "(A", "A)", "D", "a", "A ^ B", "M31", "M0", "()", "A - - B", "\xc3"}) {
+    const std::vector<std::string> few = std::string(bad)[0] == 'M' ? paths : std::vector<std::string>{path, path, path};
+    EXPECT_NE(failureOf([&] { readMeshes(few, bad); }, ExitCode::Usage), "no failure") << bad;
+  }
+  EXPECT_EQ(shapeOf(readMeshes({path}, std::string(100000, '(') + "A" + std::string(100000, ')'))), "0");
+}
+
+// A plate of cylinders as openscad writes it, 170 bytes a leaf.
+std::string plate(int count) {
+  std::string text = "difference() {\n\tcube(size = [100, 100, 5], center = false);\n";
+  for (int i = 0; i < count; ++i) {
+    text += fmt::format("\tmultmatrix([[1, 0, 0, {:g}], [0, 1, 0, {:g}], [0, 0, 1, -1], [0, 0, 0, 1]]) {{\n\t\t"
+                        "cylinder($fn = 32, $fa = 12, $fs = 2, h = 7, r1 = 0.8, r2 = 0.8, center = false);\n\t}}\n", i % 317 * 3.1, i / 317 * 3.3);
+  }
+  return text + "}\n";
+}
+
+double millisecondsFor(const std::string& text, std::size_t leaves) {
+  double best = 1e9;
+  for (int i = 0; i < 3; ++i) {
+    const auto begin = std::chrono::steady_clock::now();
+    const Model model = parse(text);
+    best = std::min(best, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+    EXPECT_EQ(model.leaves.size(), leaves);
+    EXPECT_EQ(model.leaves[1].mesh, model.leaves.back().mesh);
+  }
+  return best;
+}
+
+// The bounds are those of the project times four, for slow machines and sanitizers; what was measured is printed.
+TEST(Speed, plates) {
+  const std::string small = plate(1000), large = plate(100000);
+  const double smallMs = millisecondsFor(small, 1001), largeMs = millisecondsFor(large, 100001);
+  fmt::print("{} bytes: {:.2f} ms, {} bytes: {:.1f} ms\n", small.size(), smallMs, large.size(), largeMs);
+  EXPECT_LT(smallMs, 40);
+  EXPECT_LT(largeMs, 2000);
+}
+
+}  // namespace
+}  // namespace copeel::csg
