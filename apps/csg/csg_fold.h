@@ -30,7 +30,7 @@ struct Surface {
 class PixelSink {
  public:
   virtual ~PixelSink() = default;
-  virtual void pixel(int x, int y, const std::vector<Surface>& surfaces) = 0;
+  virtual void pixel(int x, int y, std::span<const Surface> surfaces) = 0;
 };
 
 class CsgFold {

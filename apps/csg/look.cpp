@@ -41,7 +41,7 @@ glm::dvec4 Look::overlayColor(std::uint32_t part) const {
   return part <= model_.background.size() ? kBackgroundPart : kHighlightPart;
 }
 
-glm::dvec3 Look::blend(const std::vector<Surface>& frontToBack) const {
+glm::dvec3 Look::blend(std::span<const Surface> frontToBack) const {
   glm::dvec3 sum(0);
   double through = 1;
   for (const Surface& surface : frontToBack) {

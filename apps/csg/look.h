@@ -1,6 +1,7 @@
 // How surfaces look: openscad's preview. Colour = base · min(1, 0.2 + |n·l|), l = (-1, 1, 1)/√3 in eye space, blended in float.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <glm/vec4.hpp>
@@ -16,7 +17,7 @@ class Look {
 
   void setView(const PlaneClasses& planes, const View& view);   // shades each plane class once
   double alpha(std::uint32_t leaf, std::uint32_t part) const { return colorOf(leaf, part).a; }
-  glm::dvec3 blend(const std::vector<Surface>& frontToBack) const;   // 0 … 255, over the background
+  glm::dvec3 blend(std::span<const Surface> frontToBack) const;   // 0 … 255, over the background
 
  private:
   glm::dvec4 colorOf(std::uint32_t leaf, std::uint32_t part) const { return part == 0 ? leafColors_[leaf] : overlayColor(part); }

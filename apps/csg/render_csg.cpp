@@ -145,9 +145,9 @@ void Renderer::State::drawPass(const View& view, PixelSink& sink) {
   const cpu::Frame frame(scene, planes, view);
   if (options.method == "zbuffer") {
     cpu::renderNearest(frame, [&](int x, int y, const cpu::TileSlot* slot, const cpu::Tile& tile) {
-      std::vector<Surface> surfaces;
-      if (slot) surfaces.push_back({slot->primitive, slot->planeClass, tile.objects[slot->object].object, 0});
-      sink.pixel(x, y, surfaces);
+      if (!slot) return;
+      const Surface surface{slot->primitive, slot->planeClass, tile.objects[slot->object].object, 0};
+      sink.pixel(x, y, {&surface, 1});
     });
   } else {
     drawTiles(frame, sink);
@@ -165,7 +165,8 @@ class FrameSink : public PixelSink {
     view_ = &view;
     if (!frame_.depth.pixels.empty()) depths_ = depthPlanes(scene, planes, view);
   }
-  void pixel(int x, int y, const std::vector<Surface>& surfaces) override {
+  void pixel(int x, int y, std::span<const Surface> surfaces) override {
+    if (surfaces.empty()) return;   // the images start as background
     if (sum_) sum_->at(x, y) += glm::vec3(look_.blend(surfaces) - look_.blend({}));
     else if (!frame_.color.pixels.empty()) frame_.color.at(x, y) = toRgb8(look_.blend(surfaces));
     if (frame_.depth.pixels.empty() && frame_.ids.pixels.empty()) return;

@@ -84,15 +84,18 @@ glm::dvec3 needleNormal(const glm::dvec3& p, const glm::dvec3& q, const glm::dve
 Facet measure(const Scene& scene, std::uint32_t object, std::uint32_t facet, FacetRange range) {
   Facet result;
   result.key.object = object, result.key.facet = facet;
+  thread_local std::vector<glm::dvec3> corners;
+  corners.clear();
   const Object& placed = scene.objects()[object];
-  const auto corner = [&](std::uint32_t triangle, int k) {
+  const auto place = [&](std::uint32_t triangle, int k) {
     return transformPoint(placed.worldFromObject, placed.mesh->vertices[placed.mesh->triangles[triangle][k]]);
   };
   double best = -1, magnitude = 0;
   glm::dvec3 normal{0}, second{0}, third{0};
   for (std::uint32_t t = range.begin; t < range.end; ++t) {
-    const glm::dvec3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
+    const glm::dvec3 a = place(t, 0), b = place(t, 1), c = place(t, 2);
     result.box.add(a), result.box.add(b), result.box.add(c);
+    corners.insert(corners.end(), {a, b, c});
     const glm::dvec3 n = glm::cross(b - a, c - a);
     const double area = glm::length(n);
     if (!(area > best)) continue;
@@ -105,31 +108,32 @@ Facet measure(const Scene& scene, std::uint32_t object, std::uint32_t facet, Fac
   if (glm::dot(result.normal, kHalf) < 0) result.normal = -result.normal;
   result.error = std::min(error * 1.001 + 4 * kEps, 1.0);
   result.key.area = static_cast<float>(best);
-  for (std::uint32_t t = range.begin; t < range.end; ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const glm::dvec3 away = corner(t, k) - result.point;
-      result.flatness = std::max(result.flatness, std::abs(glm::dot(result.normal, away)));
-      result.radius = std::max(result.radius, glm::length(away));
-    }
+  double radiusSquared = 0;
+  for (const glm::dvec3& corner : corners) {
+    const glm::dvec3 away = corner - result.point;
+    result.flatness = std::max(result.flatness, std::abs(glm::dot(result.normal, away)));
+    radiusSquared = std::max(radiusSquared, glm::dot(away, away));
   }
+  result.radius = std::sqrt(radiusSquared) * (1 + 4 * kEps);
   return result;
 }
 
-std::uint32_t hashOf(const glm::dvec3& normal, double offset) {
+std::uint32_t planeHash(const glm::dvec3& normal, double offset) {
   std::uint64_t h = 0x9E3779B97F4A7C15ull;
   for (double v : {normal.x, normal.y, normal.z, offset}) h = (h ^ std::bit_cast<std::uint64_t>(v + 0.0)) * 0xD6E8FEB86659FD93ull, h ^= h >> 32;
   return static_cast<std::uint32_t>(h);
 }
 
-// Classes by cell of (normal, offset). A bucket of the table holds the cells that hash to it; chains are threaded through `next_`.
+// Classes by cell of (normal, offset). A bucket of the table holds the cells that hash to it; chains are threaded through `chain_`.
 class ClassIndex {
  public:
   ClassIndex(double margin, std::size_t expected)
       : cell_(std::min(margin * kCellPerMargin, kLargestCell)), margin_(margin / cell_), heads_(std::bit_ceil(expected * 2 + 1), kEnd) {}
 
   void insert(const Facet& facet, std::uint32_t planeClass) {
-    next_.resize(planeClass + 1, kEnd);
-    next_[planeClass] = std::exchange(heads_[bucketOf(cellOf(facet.normal, facet.offset))], planeClass);
+    const std::uint32_t hash = hashOf(cellOf(facet.normal, facet.offset));
+    chain_.resize(planeClass + 1);
+    chain_[planeClass] = {std::exchange(heads_[hash & (heads_.size() - 1)], planeClass), hash};
   }
 
   // The first class for which `accept` holds among those whose plane may agree; kEnd if none.
@@ -149,7 +153,7 @@ class ClassIndex {
   Cell cellOf(const glm::dvec3& n, double offset) const {
     return {std::rint(n.x / cell_), std::rint(n.y / cell_), std::rint(n.z / cell_), std::rint(offset / cell_)};
   }
-  std::size_t bucketOf(const Cell& cell) const { return hashOf({cell[0], cell[1], cell[2]}, cell[3]) & (heads_.size() - 1); }
+  static std::uint32_t hashOf(const Cell& cell) { return planeHash({cell[0], cell[1], cell[2]}, cell[3]); }
 
   template <class Accept>
   std::uint32_t search(const glm::dvec3& n, double offset, Accept accept) const {
@@ -166,15 +170,20 @@ class ClassIndex {
     for (int corner = 0; corner < 1 << nearCount; ++corner) {
       Cell cell = home;
       for (int i = 0; i < nearCount; ++i) cell[near[i]] += corner >> i & 1 ? step[i] : 0;
-      for (std::uint32_t c = heads_[bucketOf(cell)]; c != kEnd; c = next_[c]) {
-        if (accept(c)) return c;
+      const std::uint32_t hash = hashOf(cell);
+      for (std::uint32_t c = heads_[hash & (heads_.size() - 1)]; c != kEnd; c = chain_[c].next) {
+        if (chain_[c].hash == hash && accept(c)) return c;
       }
     }
     return kEnd;
   }
 
   double cell_, margin_;   // margin in cells
-  std::vector<std::uint32_t> heads_, next_;
+  struct Link {
+    std::uint32_t next, hash;   // of its cell: classes of other cells in the bucket are passed over unseen
+  };
+  std::vector<std::uint32_t> heads_;
+  std::vector<Link> chain_;
 };
 
 float below(double v) { return std::nextafter(static_cast<float>(v), -std::numeric_limits<float>::infinity()); }
@@ -247,7 +256,7 @@ PlaneClasses::PlaneClasses(const Scene& scene, double tolerance)
   const auto measured = [&](std::uint32_t object, std::uint32_t f) {
     Facet facet = measure(scene, object, f, rangeOf(*starts[object], f));
     facet.offset = diagonal > 0 ? glm::dot(facet.normal, facet.point - center) / diagonal : 0.0;
-    facet.key.tie = hashOf(facet.normal, facet.offset);
+    facet.key.tie = planeHash(facet.normal, facet.offset);
     return facet;
   };
   std::vector<FacetKey> keys(facetCount);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 
 #include "core/formats/read_mesh.h"
@@ -37,30 +36,6 @@ TEST(SharedModels, areReadWhole) {
     EXPECT_TRUE(mesh.singlePrecision) << known.name;
     EXPECT_EQ(statusOf(mesh).closed, known.closed) << known.name;
   }
-}
-
-double fastestMs(const std::string& path) {
-  double fastest = 1e9;
-  for (int i = 0; i < 5; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    readMesh(path);
-    fastest =
-        std::min(fastest, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
-  }
-  return fastest;
-}
-
-// Generous by a factor of three or so: a busy machine is no failure, a reader that has become slow is.
-TEST(SharedModels, loadQuickly) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(NDEBUG)
-  GTEST_SKIP() << "times are for release builds";
-#else
-  const std::string dragon = COPEEL_SHARED_MODELS "/dragon_871k.ply",
-                    rocker = COPEEL_SHARED_MODELS "/../csg/rocker-arm.off";
-  if (!std::filesystem::exists(dragon) || !std::filesystem::exists(rocker)) GTEST_SKIP() << "no shared models";
-  EXPECT_LT(fastestMs(dragon), 150);  // 871,306 triangles, binary PLY
-  EXPECT_LT(fastestMs(rocker), 20);   // 20,088 triangles, OFF
-#endif
 }
 
 }  // namespace
