@@ -92,7 +92,7 @@ void climb(const Options& options, const Programs& programs, const WorkFolder& w
     // A rung that cannot be measured does not take the others with it.
     try {
       const fs::path csg = evaluate(rung, folders, work.path());
-      const WholeProcesses processes = measureProcesses(rung, folders, csg, programs, options.processes);
+      const WholeProcesses processes = measureProcesses(rung, csg, programs, options.processes);
       results.rungs.push_back({rung, measureApart(csg, options, work), processes});
     } catch (const Error& error) {
       if (error.code() == ExitCode::Usage) throw;

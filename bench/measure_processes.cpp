@@ -63,11 +63,10 @@ Runner openscadRunner(const std::vector<std::string>& input, const fs::path& pic
 
 }  // namespace
 
-WholeProcesses measureProcesses(const Rung& rung, const RungFolders& folders, const fs::path& csg, const Programs& programs,
-                                const ProcessLimitsOfRun& limits) {
+WholeProcesses measureProcesses(const Rung& rung, const fs::path& csg, const Programs& programs, const ProcessLimitsOfRun& limits) {
   std::vector<std::string> scad = definitionArguments(rung);
-  scad.push_back((folders.sources / rung.source).string());
   const fs::path folder = csg.parent_path();
+  scad.push_back(sourceIn(rung, folder).string());
   Runner fromCsg = copeelRunner({csg.string()}, folder / "csg.png", programs, limits);
   Runner fromScad = copeelRunner(scad, folder / "scad.png", programs, limits);
   Runner openscad = openscadRunner(scad, folder / "openscad.png", limits);

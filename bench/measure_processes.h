@@ -14,6 +14,7 @@ struct ProcessMeasurement {
   std::uint64_t peakBytes = 0;
   std::string note;                  // what went wrong, if anything; the time is then that of failing
   bool measured() const { return wall.minMs > 0; }
+  bool drew() const { return measured() && note.empty(); }
 };
 
 struct ProcessLimitsOfRun {
@@ -30,13 +31,12 @@ struct Programs {
 
 struct WholeProcesses {
   ProcessMeasurement fromCsg, fromScad, openscad;
-  double scadSpeedup() const {
-    return openscad.measured() && fromScad.measured() ? openscad.wall.minMs / fromScad.wall.minMs : 0;
-  }
+  // 0 where there is nothing to compare: not measured, or no picture.
+  double scadSpeedup() const { return openscad.drew() && fromScad.drew() ? openscad.wall.minMs / fromScad.wall.minMs : 0; }
 };
 
-WholeProcesses measureProcesses(const Rung& rung, const RungFolders& folders, const std::filesystem::path& csg, const Programs& programs,
-                                const ProcessLimitsOfRun& limits);
+// `csg` as evaluate() wrote it, its source beside it.
+WholeProcesses measureProcesses(const Rung& rung, const std::filesystem::path& csg, const Programs& programs, const ProcessLimitsOfRun& limits);
 
 // Of a .csg alone.
 ProcessMeasurement measureProcess(const std::filesystem::path& csg, const Programs& programs, const ProcessLimitsOfRun& limits);

@@ -56,6 +56,11 @@ pid_t start(const std::vector<std::string>& command, const Pipe& pipe, int fd) {
   return failed ? -1 : process;
 }
 
+void end(pid_t process) {
+  kill(process, SIGTERM);
+  waitpid(process, nullptr, 0);
+}
+
 // Everything up to the end of the stream or the time limit; false at the limit.
 bool readAll(int fd, double seconds, std::string& text) {
   const auto begin = Clock::now();
@@ -108,20 +113,22 @@ XServer::XServer() {
   constexpr int kNumberFd = 3;
   constexpr double kStartSeconds = 20;
   Pipe pipe;
-  process_ = start({"Xvfb", "-displayfd", std::to_string(kNumberFd), "-screen", "0", "1280x1024x24"}, pipe, kNumberFd);
+  process_ = start({"Xvfb", "-displayfd", std::to_string(kNumberFd), "-noreset", "-screen", "0", "1280x1024x24"}, pipe, kNumberFd);
   pipe.closeWriter();
   if (process_ < 0) return;
-  pollfd ready{pipe.ends[0], POLLIN, 0};
-  char number[16] = {};
-  const bool answered = poll(&ready, 1, static_cast<int>(kStartSeconds * 1000)) > 0 && read(pipe.ends[0], number, sizeof number - 1) > 0;
-  if (!answered) return;
-  setenv("DISPLAY", fmt::format(":{}", std::atoi(number)).c_str(), 1);
+  // To the end of the stream: the line comes in two pieces, and a server that cannot write the second one ends.
+  std::string number;
+  readAll(pipe.ends[0], kStartSeconds, number);
+  if (number.empty()) {
+    end(process_);
+    process_ = -1;
+    return;
+  }
+  setenv("DISPLAY", fmt::format(":{}", std::atoi(number.c_str())).c_str(), 1);
 }
 
 XServer::~XServer() {
-  if (process_ <= 0) return;
-  kill(process_, SIGTERM);
-  waitpid(process_, nullptr, 0);
+  if (process_ > 0) end(process_);
 }
 
 }  // namespace copeel::bench

@@ -45,7 +45,7 @@ std::vector<Rung> allRungs(const RungFolders& folders) {
   };
   const fs::path mesh = folders.meshes / "rocker-arm.off";
   if (fs::exists(mesh)) {
-    rungs.push_back({"g", "rocker arm minus 27 spheres", "mesh_spheres.scad", {fmt::format("mesh=\"{}\"", fs::absolute(mesh).string())}});
+    rungs.push_back({"g", "rocker arm minus 27 spheres", "mesh_spheres.scad", {fmt::format("mesh=\"{}\"", fs::canonical(mesh).string())}});
   }
   for (int n : {4, 8, 12, 16, 32, 64}) {
     rungs.push_back({fmt::format("h{}", n), fmt::format("products of unions, n = {}", n), "products.scad", {fmt::format("n={}", n)}});
@@ -74,12 +74,17 @@ std::vector<std::string> definitionArguments(const Rung& rung) {
   return arguments;
 }
 
+fs::path sourceIn(const Rung& rung, const fs::path& folder) { return folder / rung.source; }
+
 fs::path evaluate(const Rung& rung, const RungFolders& folders, const fs::path& folder) {
   // An absolute path: openscad takes a relative output from the source's folder.
   const fs::path csg = fs::absolute(folder / (rung.name + ".csg"));
   std::vector<std::string> command{"openscad", "-o", csg.string()};
   for (const std::string& argument : definitionArguments(rung)) command.push_back(argument);
-  command.push_back((folders.sources / rung.source).string());
+  // openscad writes import() paths relative to the source, and they are read relative to the .csg: both lie in one folder.
+  const fs::path source = sourceIn(rung, csg.parent_path());
+  fs::copy_file(folders.sources / rung.source, source, fs::copy_options::overwrite_existing);
+  command.push_back(source.string());
   const ProcessRun run = runProcess(command, {});
   if (run.exitCode != 0 || !fs::exists(csg)) failMachine("openscad: {}: could not be turned into .csg", rung.source);
   return csg;

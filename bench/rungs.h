@@ -31,8 +31,9 @@ std::vector<Rung> allRungs(const RungFolders& folders);
 // list. Throws Error{Usage} for an item that is none.
 std::vector<Rung> chosenRungs(const RungFolders& folders, const std::vector<std::string>& names);
 
-// Writes `folder`/NAME.csg and returns its path. Throws Error{Machine} where openscad cannot do it.
+// Copies the source to `folder`, writes NAME.csg beside it and returns its path. Throws Error{Machine} where openscad cannot do it.
 std::filesystem::path evaluate(const Rung& rung, const RungFolders& folders, const std::filesystem::path& folder);
+std::filesystem::path sourceIn(const Rung& rung, const std::filesystem::path& folder);   // the copy
 
 // "-D", "NAME=VALUE", … as openscad and copeel take them.
 std::vector<std::string> definitionArguments(const Rung& rung);

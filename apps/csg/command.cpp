@@ -15,6 +15,7 @@
 #include "apps/command/parse_values.h"
 #include "apps/command/progress.h"
 #include "apps/csg/command_options.h"
+#include "apps/csg/scad_camera.h"
 #include "core/error.h"
 #include "core/image/write_image.h"
 #include "core/output_file.h"
@@ -66,15 +67,14 @@ Model readMeshFiles(const CommandOptions& options, const std::vector<MeshArgumen
   return model;
 }
 
-Model readModel(const CommandOptions& options, InputKind kind, const std::vector<MeshArgument>& files) {
+Model readModel(CommandOptions& options, InputKind kind, const std::vector<MeshArgument>& files) {
   ReadOptions read;
   read.definitions = options.definitions;
-  switch (kind) {
-    case InputKind::Scad: return readScad(files[0].path, read);
-    case InputKind::Csg: return readCsg(files[0].path, read);
-    case InputKind::Meshes: break;
-  }
-  return readMeshFiles(options, files);
+  if (kind == InputKind::Meshes) return readMeshFiles(options, files);
+  if (kind == InputKind::Csg) return readCsg(files[0].path, read);
+  Model model = readScad(files[0].path, read);
+  applyViewVariables(files[0].path, read, model, options.common.camera);
+  return model;
 }
 
 struct Drawing {
@@ -105,7 +105,7 @@ std::uint64_t peakMemoryBytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;   // Linux counts in KiB
 }
 
-void run(const CommandOptions& options) {
+void run(CommandOptions options) {
   const auto start = Clock::now();
   const InputKind kind = inputKind(options);
   checkBackend(options.common);

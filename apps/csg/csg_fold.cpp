@@ -50,6 +50,7 @@ void CsgFold::setInitialState() {
     }
   }
   risen_.clear();
+  fallen_.clear();
   initialGates_ = gates_;
   initialStates_ = states_;
   dirty_ = false;
@@ -75,6 +76,7 @@ void CsgFold::startInsideStack(const PixelStack& stack) {
     if (eye_.fromStack[leaves_[slot.object]]) addWinding(slot.object, -slot.side);
   }
   risen_.clear();
+  fallen_.clear();
 }
 
 inline void CsgFold::addWinding(std::uint32_t leaf, std::int32_t change) {
@@ -96,31 +98,35 @@ inline void CsgFold::climb(std::uint32_t index, bool value) {
     gate.lacking -= value ? 1 : -1;
     const bool is = gate.isTrue();
     if (was == is) return;
-    if (gate.output != kNone && is) risen_.push_back(gate.output);
+    if (gate.output != kNone) noteToggle(gate.output, is);
     if (gate.parent == kNone) return;
     value = is != gate.negated;
     index = gate.parent;
   }
 }
 
+// What a result was before the group shows in its first change: a leaf of several uses may make it fall and rise again.
+void CsgFold::noteToggle(std::uint32_t output, bool rises) {
+  for (const auto* known : {&risen_, &fallen_}) {
+    if (std::find(known->begin(), known->end(), output) != known->end()) return;
+  }
+  (rises ? risen_ : fallen_).push_back(output);
+}
+
 bool CsgFold::closeGroup() {
   if (groupCount_ > 1) before_ = gates_;
   for (std::size_t i = 0; i < groupCount_; ++i) addWinding(slots_[group_[i]].object, slots_[group_[i]].side);
   if (!risen_.empty()) showRisen();
+  fallen_.clear();
   groupCount_ = 0;
   return enough_;
 }
 
 void CsgFold::showRisen() {
-  if (risen_.size() > 1) {
-    std::sort(risen_.begin(), risen_.end());
-    risen_.erase(std::unique(risen_.begin(), risen_.end()), risen_.end());
-  }
+  if (risen_.size() > 1) std::sort(risen_.begin(), risen_.end());
   for (std::uint32_t output : risen_) {
     // Only a result that was false before the whole group and is true after it shows a surface.
-    const std::uint32_t top = topOfOutput_[output];
-    const bool was = groupCount_ > 1 && before_[top].isTrue();
-    if (!was && gates_[top].isTrue() && !enough_) showSurface(output, groupCount_ == 1 ? group_[0] : showingFace(output));
+    if (gates_[topOfOutput_[output]].isTrue() && !enough_) showSurface(output, groupCount_ == 1 ? group_[0] : showingFace(output));
   }
   risen_.clear();
 }
@@ -142,12 +148,13 @@ std::uint32_t CsgFold::showingFace(std::uint32_t output) {
   for (std::uint32_t slot : group) change_[slots_[slot].object] += slots_[slot].side;
   std::uint32_t best = group.front(), bestLeaf = 0;
   bool found = false, bestFaces = false;
-  for (std::uint32_t slot : group) {
-    const std::uint32_t leaf = slots_[slot].object;
-    const bool faces = (slots_[slot].side > 0) == (change_[leaf] > 0);   // turned the way the leaf changes
-    const bool better = !found || leaf > bestLeaf || (leaf == bestLeaf && (faces > bestFaces || (faces == bestFaces && slot > best)));
-    if (!better || !bringsChange(leaf, output)) continue;
-    found = true, best = slot, bestLeaf = leaf, bestFaces = faces;
+  // Slots ascend, so the last leaf that brings the change about is met first; the way up may be long.
+  for (auto slot = group.rbegin(); slot != group.rend(); ++slot) {
+    const std::uint32_t leaf = slots_[*slot].object;
+    if (found && leaf != bestLeaf) break;
+    const bool faces = (slots_[*slot].side > 0) == (change_[leaf] > 0);   // turned the way the leaf changes
+    if (found ? !faces || bestFaces : !bringsChange(leaf, output)) continue;
+    found = true, best = *slot, bestLeaf = leaf, bestFaces = faces;
   }
   for (std::uint32_t slot : group) change_[slots_[slot].object] = 0;
   return best;

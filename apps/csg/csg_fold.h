@@ -50,7 +50,6 @@ class CsgFold {
     group_[groupCount_++] = slot;
   }
   bool closeGroup();
-  bool enough() const { return enough_; }
   void endPixel(int x, int y) { sink_.pixel(x, y, surfaces_); }
 
  private:
@@ -78,6 +77,7 @@ class CsgFold {
   void startInsideStack(const PixelStack& stack);
   void addWinding(std::uint32_t leaf, std::int32_t change);
   void climb(std::uint32_t gate, bool value);
+  void noteToggle(std::uint32_t output, bool rises);
   void showRisen();
   void showSurface(std::uint32_t output, std::uint32_t slot);
   std::uint32_t showingFace(std::uint32_t output);
@@ -107,7 +107,7 @@ class CsgFold {
   std::size_t groupCount_ = 0;
   std::vector<Gate> before_;                   // gates before a group of several fragments
   std::vector<std::int32_t> change_;           // of each leaf's winding in the group, only while a face is sought
-  std::vector<std::uint32_t> risen_;           // outputs that became true in the group
+  std::vector<std::uint32_t> risen_, fallen_;  // outputs by the first change that the group brought them
   std::vector<Surface> surfaces_;
   bool enough_ = false;
 };

@@ -136,8 +136,8 @@ void Renderer::State::drawTiles(const cpu::Frame& frame, PixelSink& sink) {
   stats.fragments = stats.fragmentsCaptured = counts.fragments;
   stats.depthComplexityMax = counts.depthComplexityMax;
   stats.coveredPixels = counts.coveredPixels;
-  stats.coplanarPixels = counts.coplanarPixels;
-  stats.decidedExactly = counts.decidedExactly;
+  stats.coplanarPixels = counts.walk.coplanarPixels;
+  stats.decidedExactly = counts.walk.decidedExactly;
 }
 
 void Renderer::State::drawPass(const View& view, PixelSink& sink) {

@@ -189,6 +189,8 @@ HWY_ATTR void SortBlock(FragmentGrid::Block& block) {
   }
 }
 
+const char* SimdName() { return hwy::TargetName(HWY_TARGET); }
+
 }  // namespace HWY_NAMESPACE
 }  // namespace copeel::cpu
 HWY_AFTER_NAMESPACE();

@@ -18,6 +18,7 @@ namespace copeel::cpu {
 HWY_EXPORT(CollectFragments);
 HWY_EXPORT(SortBlock);
 HWY_EXPORT(CollectNearest);
+HWY_EXPORT(SimdName);
 
 bool collectFragments(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint32_t finished,
                       FragmentGrid& grid) {
@@ -29,6 +30,8 @@ void sortBlock(FragmentGrid::Block& block) { HWY_DYNAMIC_DISPATCH(SortBlock)(blo
 void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint64_t* nearest) {
   HWY_DYNAMIC_DISPATCH(CollectNearest)(triangles.data(), triangles.size(), format, rect, nearest);
 }
+
+const char* simdInUse() { return HWY_DYNAMIC_DISPATCH(SimdName)(); }
 
 void chooseSimd(const char* name) {
   hwy::DisableTargets(0);

@@ -80,5 +80,6 @@ void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, 
 
 // Restricts the targets to those at most as wide as named: "best", "avx2", "sse4", "scalar". For tests; not to be called while drawing.
 void chooseSimd(const char* name);
+const char* simdInUse();   // Highway's name of the target that the kernels run on
 
 }  // namespace copeel::cpu

@@ -4,7 +4,6 @@
 // growing batches and left as soon as every pixel has had enough. The result does not depend on threads, splits or batches.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 
 #include <tbb/enumerable_thread_specific.h>
@@ -15,7 +14,8 @@
 
 namespace copeel::cpu {
 
-struct TileCounts : WalkCounts {
+struct TileCounts {
+  WalkCounts walk;
   std::uint64_t fragments = 0;
   std::uint64_t depthComplexityMax = 0;
   std::uint64_t coveredPixels = 0;
@@ -36,7 +36,8 @@ class TileRenderer {
  public:
   TileRenderer(const Frame& frame, const TileOptions& options, F fold)
       : frame_(frame), options_(options), fold_(std::move(fold)), grid_(options.gridBudgetBytes),
-        exact_(frame.scene, frame.planes, frame.depths, frame.view) {}
+        exact_(frame.scene, frame.planes, frame.depths, frame.view), walker_(fold_, exact_) {}
+  TileRenderer(const TileRenderer&) = delete;
 
   void draw(int index) {
     tile_.begin(frame_, index);
@@ -46,8 +47,11 @@ class TileRenderer {
     finished_ = 0;
     drawRect(BlockRect{0, 0, (tile_.width + kBlockSize - 1) / kBlockSize, (tile_.height + kBlockSize - 1) / kBlockSize});
   }
-  const TileCounts& counts() const { return counts_; }
-  F& fold() { return fold_; }
+  TileCounts counts() const {
+    TileCounts counts = counts_;
+    counts.walk = walker_.counts();
+    return counts;
+  }
 
  private:
   void drawRect(const BlockRect& rect) {
@@ -61,7 +65,7 @@ class TileRenderer {
       const std::size_t end = batches ? std::max(tile_.setupsOfLayers(layers), begin) : all.size();
       if (!collectFragments(all.subspan(begin, end - begin), tile_.format, rect, finished_, grid_)) return split(rect);
       const bool last = end == all.size();
-      if (foldRect(rect, last ? ~std::uint64_t{0} : tile_.nearest[end]) || last) break;
+      if (foldRect(rect, last ? kNoLimit : tile_.nearest[end]) || last) break;
       begin = end;
     }
     for (int b = 0; b < kBlocksPerTile; ++b) countFragments(b);
@@ -107,6 +111,7 @@ class TileRenderer {
   bool foldBlock(int b, int x, int y, std::uint64_t limit) {
     FragmentGrid::Block& block = grid_.block(b);
     sortBlock(block);
+    walker_.begin(tile_, limit);
     const int columns = std::min(kBlockSize, tile_.width - x), rows = std::min(kBlockSize, tile_.height - y);
     bool all = true;
     for (int row = 0; row < rows; ++row) {
@@ -115,7 +120,7 @@ class TileRenderer {
         if (done_[b] >> p & 1) continue;
         const PixelStack stack{block.keys.get() + p, block.counts[p], kBlockPixels, tile_.format, tile_.slots.data()};
         const int px = tile_.x0 + x + column, py = tile_.y0 + y + row;
-        if (walkPixel(fold_, stack, tile_.coarse, limit, px, py, exact_, exactStack_, counts_) == Walk::Finished) {
+        if (walker_.walk(stack, px, py) == Walk::Finished) {
           fold_.endPixel(px, py);
           done_[b] |= std::uint64_t{1} << p;
         } else {
@@ -132,7 +137,7 @@ class TileRenderer {
   Tile tile_;
   FragmentGrid grid_;
   ExactOrder exact_;
-  ExactStack exactStack_;
+  Walker<F> walker_;
   std::uint64_t done_[kBlocksPerTile] = {};   // pixels, by block
   std::uint32_t finished_ = 0;                // blocks
   TileCounts counts_;
@@ -149,11 +154,12 @@ TileCounts renderTiles(const Frame& frame, const TileOptions& options, MakeFold 
   }, tbb::simple_partitioner());
   TileCounts total;
   for (const auto& renderer : renderers) {
-    total.fragments += renderer.counts().fragments;
-    total.depthComplexityMax = std::max(total.depthComplexityMax, renderer.counts().depthComplexityMax);
-    total.coveredPixels += renderer.counts().coveredPixels;
-    total.decidedExactly += renderer.counts().decidedExactly;
-    total.coplanarPixels += renderer.counts().coplanarPixels;
+    const TileCounts counts = renderer.counts();
+    total.fragments += counts.fragments;
+    total.depthComplexityMax = std::max(total.depthComplexityMax, counts.depthComplexityMax);
+    total.coveredPixels += counts.coveredPixels;
+    total.walk.decidedExactly += counts.walk.decidedExactly;
+    total.walk.coplanarPixels += counts.walk.coplanarPixels;
   }
   return total;
 }

@@ -17,7 +17,7 @@ constexpr double kBias = 4503599627370496.0;              // 2^52: beyond it a d
 constexpr double kMostUncertainty = 1125899906842624.0;   // 2^50 key units: nothing is certain
 // Two sums near 2^52 and a clamp round to whole key units.
 constexpr double kKeyRounding = 3;
-constexpr double kFinestError = 64;   // key units, of the most certain plane of a tile
+constexpr double kFinestError = 4;   // key units, of the most certain plane of a tile
 
 struct Corners {
   glm::ivec2 p, q, r;
@@ -164,13 +164,13 @@ void Tile::scaleDepths(const Frame& frame, bool decideAllExactly) {
     slots[i].uncertainty = static_cast<std::uint64_t>(bound);
   }
   // One bound for all but the coarse: then a gap between neighbours in sorted order parts everything before from everything after.
-  std::uint64_t common = 0;
+  uncertainty = 0;
   coarse = false;
   for (const TileSlot& slot : slots) {
     coarse |= slot.uncertainty > kCoarse;
-    if (slot.uncertainty <= kCoarse) common = std::max(common, slot.uncertainty);
+    if (slot.uncertainty <= kCoarse) uncertainty = std::max(uncertainty, slot.uncertainty);
   }
-  for (TileSlot& slot : slots) slot.uncertainty = std::max(slot.uncertainty, common);
+  for (TileSlot& slot : slots) slot.uncertainty = std::max(slot.uncertainty, uncertainty);
 }
 
 double Tile::layers() const {
@@ -195,8 +195,8 @@ void Tile::orderByDepth() {
   for (const TriangleSetup& t : setups) {
     const double least = t.dc + std::min(t.da * t.x0, t.da * t.x1) + std::min(t.db * t.y0, t.db * t.y1);
     const auto depth = static_cast<std::uint64_t>(std::clamp(least, t.lo, t.hi) - kBias);
-    const std::uint64_t uncertainty = slots[t.slot].uncertainty + 2;
-    order.push_back({depth > uncertainty ? depth - uncertainty : 0, t.slot});
+    const std::uint64_t reach = slots[t.slot].uncertainty + 2;
+    order.push_back({depth > reach ? depth - reach : 0, t.slot});
   }
   std::sort(order.begin(), order.end(), [](const Order& a, const Order& b) {
     return a.depth != b.depth ? a.depth < b.depth : a.setup < b.setup;

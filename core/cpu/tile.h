@@ -43,6 +43,7 @@ class Tile {
   double layers() const;                    // about how many fragments a pixel has
   std::size_t setupsOfLayers(double layers) const;   // how many setups, from the first, make about so many
   KeyFormat format;
+  std::uint64_t uncertainty = 0;            // of every slot that is not coarse, key units
   bool coarse = false;                      // some slot is so uncertain that its neighbours in depth order may not be adjacent
 
   static constexpr std::uint64_t kCoarse = 4096;   // key units; below, all slots of a tile carry one common bound

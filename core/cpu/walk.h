@@ -44,63 +44,114 @@ class ExactStack {
   std::uint32_t groups_ = 0;
 };
 
-inline bool hasCoarse(const PixelStack& stack) {
-  for (std::uint32_t i = 0; i < stack.count; ++i) {
-    if (stack.slots[stack.slot(i)].uncertainty > Tile::kCoarse) return true;
-  }
-  return false;
-}
+inline constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
 
-// `coarse`: the tile has coarse slots. `limit`: fragments at or beyond this depth may be missing yet; ~0 when none is.
+// Walks pixels of one tile. Neighbouring pixels mostly meet the same triangles in the same order: then the fold's state at the end of the last
+// pixel is that of this one too, and the fold is not asked again.
 template <Fold F>
-Walk walkExactly(F& fold, const PixelStack& stack, const std::vector<ExactStack::Entry>& entries, WalkCounts& counts) {
-  fold.beginPixel(stack);
-  bool coplanar = false, enough = false;
-  for (std::size_t i = 0; i < entries.size() && !enough;) {
-    const std::size_t begin = i;
-    for (; i < entries.size() && entries[i].group == entries[begin].group; ++i) fold.fragment(entries[i].slot);
-    coplanar |= i - begin > 1;
-    enough = fold.closeGroup();
-  }
-  counts.coplanarPixels += coplanar;
-  return Walk::Finished;
-}
+class Walker {
+ public:
+  Walker(F& fold, const ExactOrder& exact) : fold_(fold), exact_(exact) {}
 
-template <Fold F>
-Walk walkPixel(F& fold, const PixelStack& stack, bool coarse, std::uint64_t limit, int x, int y, const ExactOrder& exact, ExactStack& exactStack,
-               WalkCounts& counts) {
-  if (coarse && hasCoarse(stack)) {
-    if (limit != ~std::uint64_t{0}) return Walk::NeedsMore;
-    exactStack.order(stack, exact, x, y, counts);
-    return walkExactly(fold, stack, exactStack.entries(), counts);
+  // `limit`: fragments at or beyond this depth may be missing yet.
+  void begin(const Tile& tile, std::uint64_t limit) {
+    coarse_ = tile.coarse;
+    uncertainty_ = tile.uncertainty;
+    limit_ = limit;
+    remembers_ = false;
   }
-  fold.beginPixel(stack);
-  bool coplanar = false;
-  for (std::uint32_t i = 0; i < stack.count;) {
-    const std::uint64_t key = stack.key(i);
-    const TileSlot& first = stack.slots[stack.format.slotOf(key)];
-    const std::uint64_t depth = stack.format.depthOf(key);
-    if (depth + first.uncertainty >= limit) return Walk::NeedsMore;
-    fold.fragment(stack.format.slotOf(key));
-    const std::uint32_t begin = i++;
-    for (; i < stack.count; ++i) {
-      const std::uint64_t next = stack.key(i);
-      const TileSlot& slot = stack.slots[stack.format.slotOf(next)];
-      if (stack.format.depthOf(next) > depth + first.uncertainty + slot.uncertainty) break;
-      if (slot.planeClass != first.planeClass) {
-        // The keys leave open which of two planes is nearer. Missing fragments would have to be there first.
-        if (limit != ~std::uint64_t{0}) return Walk::NeedsMore;
-        exactStack.order(stack, exact, x, y, counts);
-        return walkExactly(fold, stack, exactStack.entries(), counts);
-      }
-      fold.fragment(stack.format.slotOf(next));
+
+  // On Finished the fold holds the pixel's result. `x`, `y` are image coordinates.
+  Walk walk(const PixelStack& stack, int x, int y) {
+    const bool exactly = coarse_ && hasCoarse(stack);
+    const bool repeated = !exactly && remembers_ && repeats(stack);
+    if (!repeated) remembers_ = false;
+    const Walk outcome = repeated ? Walk::Finished : exactly ? walkExactly(stack, x, y) : walkCertain(stack, x, y);
+    counts_.coplanarPixels += outcome == Walk::Finished && coplanar_;
+    return outcome;
+  }
+  const WalkCounts& counts() const { return counts_; }
+
+ private:
+  static bool hasCoarse(const PixelStack& stack) {
+    for (std::uint32_t i = 0; i < stack.count; ++i) {
+      if (stack.slots[stack.slot(i)].uncertainty > Tile::kCoarse) return true;
     }
-    coplanar |= i - begin > 1;
-    if (fold.closeGroup()) break;
+    return false;
   }
-  if (limit != ~std::uint64_t{0} && !fold.enough()) return Walk::NeedsMore;
-  counts.coplanarPixels += coplanar;
-  return Walk::Finished;
-}
+
+  // True when the pixel starts with the fragments that decided the last one, its groups as certainly apart.
+  bool repeats(const PixelStack& stack) const {
+    const auto count = static_cast<std::uint32_t>(met_.size());
+    if (enough_ ? stack.count < count : stack.count != count) return false;
+    std::uint64_t last = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint64_t key = stack.key(i), depth = stack.format.depthOf(key);
+      if (stack.format.slotOf(key) != met_[i].slot) return false;
+      if (met_[i].opensGroup && i > 0 && depth <= last + 2 * uncertainty_) return false;
+      last = depth;
+    }
+    if (count < stack.count && stack.format.depthOf(stack.key(count)) <= last + 2 * uncertainty_) return false;
+    return limit_ == kNoLimit || last + uncertainty_ < limit_;
+  }
+
+  Walk walkCertain(const PixelStack& stack, int x, int y) {
+    fold_.beginPixel(stack);
+    met_.clear();
+    coplanar_ = enough_ = false;
+    for (std::uint32_t i = 0; i < stack.count && !enough_;) {
+      const std::uint32_t begin = i, planeClass = stack.slots[stack.slot(i)].planeClass;
+      const std::uint64_t depth = stack.format.depthOf(stack.key(i));
+      if (limit_ != kNoLimit && depth + uncertainty_ >= limit_) return Walk::NeedsMore;
+      for (; i < stack.count; ++i) {
+        const std::uint64_t key = stack.key(i);
+        const std::uint32_t slot = stack.format.slotOf(key);
+        if (i > begin) {
+          if (stack.format.depthOf(key) > depth + 2 * uncertainty_) break;
+          // The keys leave open which of two planes is nearer.
+          if (stack.slots[slot].planeClass != planeClass) return walkExactly(stack, x, y);
+        }
+        fold_.fragment(slot);
+        met_.push_back({slot, i == begin});
+      }
+      coplanar_ |= i - begin > 1;
+      enough_ = fold_.closeGroup();
+    }
+    if (limit_ != kNoLimit && !enough_) return Walk::NeedsMore;
+    remembers_ = !fold_.needsWholeStack();
+    return Walk::Finished;
+  }
+
+  Walk walkExactly(const PixelStack& stack, int x, int y) {
+    // Missing fragments would have to be there first.
+    if (limit_ != kNoLimit) return Walk::NeedsMore;
+    exactStack_.order(stack, exact_, x, y, counts_);
+    const std::vector<ExactStack::Entry>& entries = exactStack_.entries();
+    fold_.beginPixel(stack);
+    coplanar_ = enough_ = false;
+    for (std::size_t i = 0; i < entries.size() && !enough_;) {
+      const std::size_t begin = i;
+      for (; i < entries.size() && entries[i].group == entries[begin].group; ++i) fold_.fragment(entries[i].slot);
+      coplanar_ |= i - begin > 1;
+      enough_ = fold_.closeGroup();
+    }
+    return Walk::Finished;
+  }
+
+  struct Met {
+    std::uint32_t slot;
+    bool opensGroup;
+  };
+
+  F& fold_;
+  const ExactOrder& exact_;
+  ExactStack exactStack_;
+  WalkCounts counts_;
+  bool coarse_ = false;
+  std::uint64_t uncertainty_ = 0;   // of all slots but the coarse, key units
+  std::uint64_t limit_ = kNoLimit;
+  std::vector<Met> met_;            // what the last pixel walked, while `remembers_`
+  bool remembers_ = false, coplanar_ = false, enough_ = false;
+};
 
 }  // namespace copeel::cpu

@@ -1,5 +1,6 @@
 // What an application makes of a pixel. A fold is given the fragments of a pixel front to back, is told when a coplanar group is complete,
-// and may say "enough". One fold object serves one thread.
+// and may say "enough". One fold object serves one thread. A result depends on the triangles met and their grouping alone, not on the pixel or
+// the depths: neighbouring pixels with the same fragments are folded once.
 #pragma once
 
 #include <concepts>
@@ -33,7 +34,6 @@ concept Fold = requires(F fold, cpu::Tile& tile, const PixelStack& stack, std::u
   fold.fragment(slot);
   // The fragments since the last call lie at one depth. True: enough, nothing behind matters.
   { fold.closeGroup() } -> std::same_as<bool>;
-  { fold.enough() } -> std::same_as<bool>;  // what closeGroup said last
   fold.endPixel(x, y);                      // image coordinates
 };
 

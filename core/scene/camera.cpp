@@ -133,4 +133,14 @@ View viewOf(const CameraOptions& options, const Box& modelBounds) {
   return view;
 }
 
+std::vector<double> gimbalNumbers(const std::vector<double>& camera) {
+  if (camera.empty()) return {0, 0, 0, 55, 0, 25, kDefaultDistance};
+  if (camera.size() != 6) return camera;
+  const glm::dvec3 view(camera[3] - camera[0], camera[4] - camera[1], camera[5] - camera[2]);
+  const double level = std::hypot(view.x, view.y);
+  const double up = std::atan2(view.z, level) * 180 / kPi;
+  const double around = level > 0 ? std::atan2(view.y, view.x) * 180 / kPi - 90 : (view.z < 0 ? 0 : -180);
+  return {camera[3], camera[4], camera[5], 90 + up, 0, around, std::hypot(level, view.z)};
+}
+
 }  // namespace copeel

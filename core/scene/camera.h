@@ -22,4 +22,7 @@ struct CameraOptions {
 // The rays of the picture that openscad would take of a model with these bounds (world units).
 View viewOf(const CameraOptions& options, const Box& modelBounds);
 
+// The same camera as 7 numbers, whichever form it has; without numbers, openscad's own: 0,0,0, 55,0,25, 140.
+std::vector<double> gimbalNumbers(const std::vector<double>& camera);
+
 }  // namespace copeel

@@ -122,6 +122,17 @@ TEST(Camera, RefusesWhatMakesNoPicture) {
   EXPECT_EQ(codeOf([&] { viewOf(with({}), Box{{-1e308, 0, 0}, {1e308, 0, 0}}); }), ExitCode::Input);
 }
 
+TEST(Camera, BothFormsAreOneCamera) {
+  for (const std::vector<double>& camera : std::vector<std::vector<double>>{
+           {60, -70, 80, 10, 15, 5}, {-40, 90, -30, 8, 12, 2}, {5, 5, 50, 5, 5, 0}, {5, 5, -50, 5, 5, 0}, {-7, -3, 4, 1, -3, 4}}) {
+    const View vector = viewOf(with(camera), kBox), gimbal = viewOf(with(gimbalNumbers(camera)), kBox);
+    expectNear(gimbal.eye, vector.eye, 1e-12 * 200);
+    expectNear(gimbal.forward, vector.forward);
+    expectNear(gimbal.right, vector.right);
+    expectNear(gimbal.down, vector.down);
+  }
+}
+
 TEST(Camera, EyeOnCentreIsSavedByViewall) {
   CameraOptions options = with({1, 2, 3, 1, 2, 3});
   options.viewAll = true;
