@@ -2,6 +2,7 @@
 // - a node of no children is the empty set, also as an operand: difference() { group(); cube(); } is nothing;
 // - of nested colours the outer one shows; a % operand is taken out of its operation; a ! anywhere is the whole model, without
 //   the matrices above it;
+// - in a difference or an intersection the first child with a dimension decides whether 2D or 3D ones count; the others are left out;
 // - a matrix with NaN or infinity, or a singular one, leaves the empty set and a warning.
 #include "apps/csg/evaluate.h"
 
@@ -27,7 +28,7 @@ bool isFinite(const glm::dmat4& m) {
 
 class Evaluator {
  public:
-  Evaluator(const SyntaxTree& tree, Shapes& shapes) : tree_(tree), shapes_(shapes) {}
+  Evaluator(const SyntaxTree& tree, Shapes& shapes) : tree_(tree), shapes_(shapes), dimensions_(dimensionsOf(tree)) {}
 
   Model run() {
     auto [at, end] = rootRange();
@@ -47,6 +48,7 @@ class Evaluator {
   struct Frame {
     Operation operation = Operation::Union;
     std::uint8_t modifiers = 0;
+    std::uint8_t dimension = 0;
     std::uint32_t end = 0;               // index past the last descendant
     std::uint32_t firstPending = 0;      // its operands wait from here on
     std::uint32_t placementCount = 1;    // the last of so many placements holds here
@@ -75,7 +77,7 @@ class Evaluator {
   // Opens a tree node or places a leaf; returns the index to go on with.
   std::uint32_t visit(std::uint32_t index) {
     const SyntaxNode& node = tree_.nodes[index];
-    if (node.modifiers & kDisabled) return node.subtreeEnd;
+    if (node.modifiers & kDisabled || isOfWrongDimension(index)) return node.subtreeEnd;
     if (!isTreeKeyword(node.keyword)) {
       placeLeaf(index);
       return node.subtreeEnd;
@@ -84,6 +86,7 @@ class Evaluator {
     frame.operation = operationOf(node.keyword);
     frame.modifiers = node.modifiers;
     frame.end = node.subtreeEnd;
+    frame.dimension = dimensions_[index];
     frame.firstPending = static_cast<std::uint32_t>(pending_.size());
     if (node.keyword == Keyword::Color && !placement().color) pushPlacement(frame).color = colorOf(tree_, node);
     if (node.keyword == Keyword::Multmatrix && !multiply(pushPlacement(frame), node)) {
@@ -93,6 +96,15 @@ class Evaluator {
     }
     open_.push_back(frame);
     return index + 1;
+  }
+
+  bool isOfWrongDimension(std::uint32_t index) {
+    const Frame& frame = open_.back();
+    const bool counts = frame.operation != Operation::Union && !(tree_.nodes[index].modifiers & kBackground);
+    if (!counts || dimensions_[index] == 0 || dimensions_[index] == frame.dimension) return false;
+    warn(tree_.nodes[index], fmt::format("2D and 3D do not mix here: this {}D {} is left out", int{dimensions_[index]},
+                                         tree_.nameOf(tree_.nodes[index])));
+    return true;
   }
 
   const Placement& placement() const { return placements_.back(); }
@@ -180,6 +192,7 @@ class Evaluator {
 
   const SyntaxTree& tree_;
   Shapes& shapes_;
+  std::vector<std::uint8_t> dimensions_;
   Model model_;
   std::vector<Frame> open_;
   std::vector<Placement> placements_{Placement{}};

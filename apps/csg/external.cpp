@@ -228,7 +228,11 @@ MeshPointer readStl(const std::string& path, bool flat) {
   return mesh.triangles.empty() ? nullptr : std::make_shared<const Mesh>(std::move(mesh));
 }
 
-std::string scadText(const Job& job) { return job.flat ? "linear_extrude(height = 1) {\n" + job.text + "\n}\n" : job.text + "\n"; }
+// openscad writes nan and inf but reads them as names of variables: so they are made variables.
+std::string scadText(const Job& job) {
+  const std::string names = "nan = 0 / 0;\ninf = 1 / 0;\n";
+  return names + (job.flat ? "linear_extrude(height = 1) {\n" + job.text + "\n}\n" : job.text + "\n");
+}
 
 class Batch {
  public:

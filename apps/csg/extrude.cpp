@@ -140,7 +140,7 @@ void addTurnedQuad(MeshBuilder& builder, std::uint32_t a, std::uint32_t b, std::
 MeshPointer extrude(const Flat& flat, const LinearExtrusion& how) {
   if (!(how.height > 0) || std::isinf(how.height) || flat.empty()) return nullptr;
   const double slices = std::max(sliceCount(flat, how), 1.0);
-  if (!(slices * static_cast<double>(flat.pointCount()) <= kMaxSolidCorners)) throw std::length_error("more than 5e7 corners");
+  if (!(slices * static_cast<double>(flat.pointCount()) <= kMaxSolidCorners)) throw std::length_error("more than 2e7 corners");
   const double low = how.center ? -how.height / 2 : 0;
   const double high = how.center ? how.height / 2 : how.height;
   MeshBuilder builder;
@@ -183,7 +183,7 @@ MeshPointer rotateExtrude(const Flat& flat, double angle, const Fragments& fragm
   }
   const bool full = angle == 360;
   const int steps = std::max(static_cast<int>(fragmentCount(high - low, fragments) * std::abs(angle) / 360), 1);
-  if (!(static_cast<double>(steps) * static_cast<double>(flat.pointCount()) <= kMaxSolidCorners)) throw std::length_error("more than 5e7 corners");
+  if (!(static_cast<double>(steps) * static_cast<double>(flat.pointCount()) <= kMaxSolidCorners)) throw std::length_error("more than 2e7 corners");
   MeshBuilder builder;
   // A full turn starts on the negative x axis, a part of one on the positive; angles as openscad forms them, from the y axis.
   const auto addStep = [&](int step) {

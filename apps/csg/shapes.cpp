@@ -98,13 +98,12 @@ std::string Shapes::keyOf(const SyntaxNode& node) const {
     }
     default: break;
   }
-  // The text itself, without the white space that depends on the depth of nesting.
+  // The text itself, without the white space that depends on the depth of nesting; where strings are in it, as it stands.
+  const std::string_view text = tree_.text.substr(node.textBegin, node.textEnd - node.textBegin);
+  if (text.find('"') != std::string_view::npos) return std::string(text);
   std::string key;
-  bool quoted = false;
-  for (std::size_t i = node.textBegin; i < node.textEnd; ++i) {
-    const char c = tree_.text[i];
-    if (c == '"') quoted = !quoted;
-    if (quoted || (c != ' ' && c != '\t' && c != '\n' && c != '\r')) key += c;
+  for (const char c : text) {
+    if (c != ' ' && c != '\t' && c != '\n' && c != '\r') key += c;
   }
   return key;
 }
@@ -157,7 +156,7 @@ MeshPointer Shapes::makeLinearExtrude(std::uint32_t index) {
   how.twist = numberOr(tree_, node, "twist", 0);
   how.hasTwist = how.twist != 0;
   const double slices = numberOr(tree_, node, "slices", 0);
-  if (slices >= kMaxSolidCorners) throw std::length_error("more than 5e7 slices");
+  if (slices >= kMaxSolidCorners) throw std::length_error("more than 2e7 slices");
   if (slices > 0) how.slices = std::max(static_cast<int>(slices), 1);
   if (const Value* scale = tree_.find(node, "scale")) readNumbers(tree_, *scale, &how.scale.x, 2);
   how.scale = glm::max(how.scale, glm::dvec2(0));

@@ -90,7 +90,7 @@ MeshPointer makeSphere(double r, const Fragments& fragments) {
   if (!(r > 0) || std::isinf(r)) return nullptr;
   const int n = fragmentCount(r, fragments);
   const int rings = (n + 1) / 2;
-  if (static_cast<double>(n) * rings > kMaxSolidCorners) throw std::length_error("a sphere of more than 5e7 corners");
+  if (static_cast<double>(n) * rings > kMaxSolidCorners) throw std::length_error("more than 2e7 corners");
   MeshBuilder builder;
   std::vector<std::uint32_t> firsts;
   for (int i = 0; i < rings; ++i) {

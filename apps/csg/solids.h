@@ -23,7 +23,7 @@ struct Fragments {
 // Corners of a full circle of radius r. Throws std::length_error beyond kMaxFragments.
 int fragmentCount(double r, const Fragments& fragments);
 inline constexpr double kMaxFragments = 1e6;
-inline constexpr double kMaxSolidCorners = 5e7;
+inline constexpr double kMaxSolidCorners = 2e7;
 
 // r · (cos, sin) of the i-th of n corners.
 glm::dvec2 circlePoint(double r, int i, int n);

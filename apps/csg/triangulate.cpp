@@ -352,7 +352,8 @@ class Triangulation {
     std::size_t head = 0;
     while (head < crossed.size()) {
       if (tries-- == 0) return false;
-      const auto [v, w] = crossed[head++];
+      const Index v = crossed[head].first, w = crossed[head].second;
+      ++head;
       Index t = kNone;
       int edge = 0;
       around(v, [&](Index s, int i) {

@@ -94,6 +94,10 @@ TEST(Semantics, aFlatShapeIsASlab) {
   const Box box = boundingBox(*model.leaves.at(0).mesh);
   EXPECT_EQ(box.min, glm::dvec3(0, 0, -0.5));
   EXPECT_EQ(box.max, glm::dvec3(2, 3, 0.5));
+  const Model mixed = parse("difference() { cube(1); square(1); }\ncube(1); square(1); intersection() { circle(1); square(1); sphere(1); }");
+  EXPECT_EQ(mixed.leaves.size(), 5u);
+  ASSERT_EQ(mixed.warnings.size(), 2u);
+  EXPECT_EQ(mixed.warnings[0], "part.csg:1: 2D and 3D do not mix here: this 2D square is left out");
 }
 
 TEST(Semantics, badValuesAreNamed) {
@@ -101,7 +105,7 @@ TEST(Semantics, badValuesAreNamed) {
   EXPECT_EQ(failure("polyhedron(points=[[0,0,0],[1,0,0],[0,1,0]],\nfaces=[[0,1,7]]);"), "part.csg:2: face 0 names point 7, but there are 3 points");
   EXPECT_EQ(failure("polyhedron(points=[[0,0,nan]],faces=[]);"), "part.csg:1: point 0 is not 3 finite numbers");
   EXPECT_EQ(failure("\nsphere(1,$fn=1e9);"), "part.csg:2: sphere has more than 1000000 fragments");
-  EXPECT_EQ(failure("sphere(1,$fn=1e6);"), "part.csg:1: sphere has a sphere of more than 5e7 corners");
+  EXPECT_EQ(failure("sphere(1,$fn=1e6);"), "part.csg:1: sphere has more than 2e7 corners");
   EXPECT_EQ(failure("multmatrix([[1,0,true,0]]) cube(1);"), "part.csg:1: an entry of the matrix is no number");
   EXPECT_EQ(failure("color(\"no such\") cube(1);"), "part.csg:1: unknown colour 'no such'");
   EXPECT_EQ(failure("import(file=\"no such.stl\");"), "part.csg:1: ./no such.stl: no such file");
