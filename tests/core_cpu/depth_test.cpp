@@ -142,7 +142,7 @@ TEST(Depth, aPencilOfPlanesThroughOneLineAgreesWithExactOrder) {
   }
   const Prepared p(std::move(objects), lookAt({0, -5, 0}, {0, 0, 0}, 9, 9, 0.03));   // the line runs through a row of samples
   const Stacks filtered = stacksOf(p.frame);
-  EXPECT_GT(filtered.counts.decidedExactly, 0u);
+  EXPECT_GT(filtered.counts.walk.decidedExactly, 0u);
   cpu::TileOptions exactly;
   exactly.decideAllExactly = true;
   EXPECT_EQ(stacksOf(p.frame, exactly).pixels, filtered.pixels);
