@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kNearPerScene = 1e-10;   // of the scene's diagonal plus the distance to it
+constexpr double kLeastNear = 1e-37;       // -1/t is held in float
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
 float below(double v) { return std::nextafter(static_cast<float>(v), -kInf); }
@@ -80,7 +81,7 @@ DepthPlane depthPlane(const Scene& scene, const PlaneClass& planeClass, const Se
 
 double nearDistance(const Scene& scene, const View& view) {
   const double reach = scene.bounds().diagonal() + glm::length(scene.bounds().center() - view.eye);
-  return std::max(kNearPerScene * reach, std::numeric_limits<double>::min() * 1e16);
+  return std::max(kNearPerScene * reach, kLeastNear);
 }
 
 std::vector<DepthPlane> depthPlanes(const Scene& scene, const PlaneClasses& planes, const View& view) {

@@ -2,6 +2,7 @@
 #include "core/scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 
@@ -15,7 +16,12 @@ Scene::Scene(std::vector<Object> objects) : objects_(std::move(objects)) {
     if (count >= kPrimitiveLimit) failMachine("the scene has more than {} triangles", kPrimitiveLimit);
     firstPrimitive_.push_back(static_cast<std::uint32_t>(count));
     for (const glm::uvec3& t : object.mesh->triangles) {
-      for (int k = 0; k < 3; ++k) bounds_.add(transformPoint(object.worldFromObject, object.mesh->vertices[t[k]]));
+      for (int k = 0; k < 3; ++k) {
+        const glm::dvec3 p = transformPoint(object.worldFromObject, object.mesh->vertices[t[k]]);
+        const bool fits = std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate && std::abs(p.z) <= kLargestCoordinate;
+        if (!fits) failInput("object {}: a corner at ({}, {}, {}); coordinates reach to 1e30", &object - objects_.data() + 1, p.x, p.y, p.z);
+        bounds_.add(p);
+      }
     }
   }
 }

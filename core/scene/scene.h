@@ -21,10 +21,13 @@ struct Object {
 // Ids from here on name the pieces of triangles that were clipped (core/cpu/projection.h).
 inline constexpr std::uint32_t kPrimitiveLimit = 0xC0000000u;
 
+// World coordinates beyond it (or not a number) are refused: what is computed of them would leave float and double.
+inline constexpr double kLargestCoordinate = 1e30;
+
 class Scene {
  public:
   Scene() = default;
-  explicit Scene(std::vector<Object> objects);
+  explicit Scene(std::vector<Object> objects);   // throws Error{Input}: kLargestCoordinate
 
   const std::vector<Object>& objects() const { return objects_; }
   std::uint32_t primitiveCount() const { return firstPrimitive_.back(); }
