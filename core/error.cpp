@@ -8,7 +8,8 @@ namespace copeel {
 
 void checkFailed(const char* file, int line, const char* condition, const std::string& values) {
   const char* separator = values.empty() ? "" : ": ";
-  std::fprintf(stderr, "%s:%d: this is a bug in Copeel: %s does not hold%s%s\n", file, line, condition, separator, values.c_str());
+  std::fprintf(stderr, "%s:%d: this is a bug in Copeel: %s does not hold%s%s\n", file, line, condition, separator,
+               values.c_str());
   std::fflush(stderr);
   std::abort();
 }

@@ -30,7 +30,7 @@ struct SignalSlot {
 };
 static_assert(std::atomic<int>::is_always_lock_free, "the signal handler reads the state");
 
-constexpr int kSignalSlotCount = 16;   // outputs open at once; further ones are only not removed on a signal
+constexpr int kSignalSlotCount = 16;  // outputs open at once; further ones are only not removed on a signal
 std::array<SignalSlot, kSignalSlotCount> signalSlots;
 
 int claimSignalSlot(const std::string& path) {

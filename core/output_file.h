@@ -11,8 +11,8 @@ namespace copeel {
 
 class OutputFile {
  public:
-  explicit OutputFile(const std::string& path);   // opens; an existing target stays as it is until commit()
-  ~OutputFile();                                  // without commit(), removes the temporary
+  explicit OutputFile(const std::string& path);  // opens; an existing target stays as it is until commit()
+  ~OutputFile();                                 // without commit(), removes the temporary
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
@@ -25,9 +25,9 @@ class OutputFile {
   [[noreturn]] void fail(int error);
   void discard();
 
-  std::string path_;        // as the caller named it, for messages
-  std::string target_;      // with symbolic links resolved
-  std::string temporary_;   // empty when the target is written directly
+  std::string path_;       // as the caller named it, for messages
+  std::string target_;     // with symbolic links resolved
+  std::string temporary_;  // empty when the target is written directly
   int signalSlot_ = -1;
   int descriptor_ = -1;
 };

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/formats/readers.h"
 #include "core/formats/read_mesh.h"
+#include "core/formats/readers.h"
 
 namespace copeel {
 

@@ -1,4 +1,6 @@
 // Any bytes to the STL reader.
 #include "reader_fuzz.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) { return copeel::fuzzReader(copeel::readStl, data, size); }
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return copeel::fuzzReader(copeel::readStl, data, size);
+}

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace copeel::csg {
@@ -31,7 +32,7 @@ void Look::setView(const PlaneClasses& planes, const View& view) {
   const glm::dvec3 light = (-right + up - view.forward) / std::sqrt(3.0);
   shade_.clear();
   for (const PlaneClass& planeClass : planes.classes()) {
-    const double lit = std::min(1.0, kAmbient + std::abs(glm::dot(planeClass.normal, light)));
+    const double lit = kAmbient + std::abs(glm::dot(planeClass.normal, light));
     shade_.push_back(static_cast<float>(options_.lit ? lit : 1.0));
   }
 }
@@ -46,7 +47,9 @@ glm::dvec3 Look::blend(const std::vector<Surface>& frontToBack) const {
   for (const Surface& surface : frontToBack) {
     const glm::dvec4 color = colorOf(surface.leaf, surface.part);
     const double alpha = std::clamp(color.a, 0.0, 1.0);
-    sum += glm::dvec3(color) * (double(shade_[surface.planeClass]) * alpha * through);
+    // openscad's light can be brighter than white: each channel stops at its own limit, so that yellow turns paler before it is full.
+    const glm::dvec3 lit = glm::min(glm::dvec3(color) * double(shade_[surface.planeClass]), 255.0);
+    sum += lit * (alpha * through);
     through *= 1 - alpha;
   }
   return sum + toVector(options_.scheme.background) * through;

@@ -13,7 +13,7 @@ namespace copeel {
 namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr double kNearPerScene = 1e-9;   // of the scene's diagonal plus the distance to it
+constexpr double kNearPerScene = 1e-10;   // of the scene's diagonal plus the distance to it
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
 float below(double v) { return std::nextafter(static_cast<float>(v), -kInf); }

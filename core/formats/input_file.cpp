@@ -14,8 +14,8 @@
 namespace copeel {
 namespace {
 
-constexpr std::size_t kFirstPipeBytes = 1 << 16;   // a pipe does not tell its size; the buffer doubles from here
-constexpr std::size_t kQuotedBytes = 24;           // of a file's own text in a message
+constexpr std::size_t kFirstPipeBytes = 1 << 16;  // a pipe does not tell its size; the buffer doubles from here
+constexpr std::size_t kQuotedBytes = 24;          // of a file's own text in a message
 
 // Closes on every way out of the constructor below.
 struct Descriptor {

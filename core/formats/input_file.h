@@ -19,7 +19,7 @@ class Source {
   const char* data() const { return bytes_.data(); }
   std::size_t size() const { return bytes_.size(); }
   const std::string& name() const { return name_; }
-  std::size_t lineOf(std::size_t place) const;   // from 1; \n, \r\n and a lone \r end a line
+  std::size_t lineOf(std::size_t place) const;  // from 1; \n, \r\n and a lone \r end a line
 
   // Error{Input}: "name:line: cause", "name: byte N: cause", "name: cause".
   template <class... Args>
@@ -37,7 +37,7 @@ class Source {
 
  private:
   std::span<const char> bytes_;
-  std::string name_;   // without control characters, so that a message stays one line
+  std::string name_;  // without control characters, so that a message stays one line
 };
 
 // A file read whole. Throws Error{Input} when it cannot be opened or read.

@@ -20,7 +20,7 @@
 namespace copeel {
 namespace {
 
-constexpr double kUnitRoundoff = 1.1102230246251565e-16;   // 2^-53
+constexpr double kUnitRoundoff = 1.1102230246251565e-16;  // 2^-53
 
 std::uint64_t hashOf(const glm::dvec3& p) {
   // Adding 0 turns -0 into 0. The multipliers are odd and random; the shift brings the well-mixed upper bits down.
@@ -97,7 +97,9 @@ void countEdges(const std::vector<glm::uvec3>& triangles, std::size_t vertexCoun
   };
   forEachEdge([&](std::uint32_t a, std::uint32_t b) { edges.count(std::min(a, b)); });
   edges.allocate();
-  forEachEdge([&](std::uint32_t a, std::uint32_t b) { edges.put(std::min(a, b), 2 * std::uint64_t{std::max(a, b)} + (a > b)); });
+  forEachEdge([&](std::uint32_t a, std::uint32_t b) {
+    edges.put(std::min(a, b), 2 * std::uint64_t{std::max(a, b)} + (a > b));
+  });
   status.closed = true;
   const auto countEdge = [&](auto begin, auto end) {
     const auto faces = end - begin;
@@ -108,7 +110,8 @@ void countEdges(const std::vector<glm::uvec3>& triangles, std::size_t vertexCoun
     status.closed = status.closed && 2 * backward == faces;
   };
   edges.forEachSorted([&](auto begin, auto end) {
-    forEachRun(begin, end, [](std::uint64_t a, std::uint64_t b) { return a / 2 == b / 2; }, countEdge);
+    forEachRun(
+        begin, end, [](std::uint64_t a, std::uint64_t b) { return a / 2 == b / 2; }, countEdge);
   });
 }
 
@@ -214,7 +217,8 @@ std::string MeshStatus::summary() const {
   add(!closed, boundaryEdgeCount > 0 ? "not closed (" + boundary + ")" : "not closed");
   add(insideOut, "inside out");
   add(nonManifoldEdgeCount > 0, counted(nonManifoldEdgeCount, "non-manifold edge", "non-manifold edges"));
-  add(inconsistentEdgeCount > 0, counted(inconsistentEdgeCount, "inconsistently oriented edge", "inconsistently oriented edges"));
+  add(inconsistentEdgeCount > 0,
+      counted(inconsistentEdgeCount, "inconsistently oriented edge", "inconsistently oriented edges"));
   add(degenerateTriangleCount > 0, counted(degenerateTriangleCount, "degenerate triangle", "degenerate triangles"));
   add(duplicateTriangleCount > 0, counted(duplicateTriangleCount, "duplicate triangle", "duplicate triangles"));
   add(unreferencedVertexCount > 0, counted(unreferencedVertexCount, "unreferenced vertex", "unreferenced vertices"));

@@ -13,8 +13,14 @@ struct TypeName {
   std::string_view classic, sized;
 };
 // In the order of PlyType.
-constexpr std::array<TypeName, 8> kTypeNames = {{{"char", "int8"}, {"uchar", "uint8"}, {"short", "int16"}, {"ushort", "uint16"},
-                                                 {"int", "int32"}, {"uint", "uint32"}, {"float", "float32"}, {"double", "float64"}}};
+constexpr std::array<TypeName, 8> kTypeNames = {{{"char", "int8"},
+                                                 {"uchar", "uint8"},
+                                                 {"short", "int16"},
+                                                 {"ushort", "uint16"},
+                                                 {"int", "int32"},
+                                                 {"uint", "uint32"},
+                                                 {"float", "float32"},
+                                                 {"double", "float64"}}};
 
 PlyType readType(TextCursor& cursor) {
   const std::string_view word = cursor.lineToken();
@@ -43,7 +49,8 @@ PlyElement readElement(TextCursor& cursor) {
   element.name = readName(cursor);
   const std::string_view word = cursor.lineToken();
   std::int64_t count = 0;
-  if (!parseInteger(word, count) || count < 0) cursor.fail("the number of elements should be here, found {}", quoted(word));
+  if (!parseInteger(word, count) || count < 0)
+    cursor.fail("the number of elements should be here, found {}", quoted(word));
   element.count = static_cast<std::uint64_t>(count);
   return element;
 }
@@ -86,7 +93,8 @@ std::size_t sizeBytes(PlyType type) {
 bool isInteger(PlyType type) { return type < PlyType::Float32; }
 
 std::size_t PlyElement::find(std::string_view property) const {
-  const auto found = std::find_if(properties.begin(), properties.end(), [&](const PlyProperty& p) { return p.name == property; });
+  const auto found =
+      std::find_if(properties.begin(), properties.end(), [&](const PlyProperty& p) { return p.name == property; });
   return static_cast<std::size_t>(found - properties.begin());
 }
 

@@ -18,24 +18,24 @@ struct PlyProperty {
   std::string_view name;
   PlyType type = PlyType::Float32;
   bool isList = false;
-  PlyType countType = PlyType::Uint8;   // of a list's length
+  PlyType countType = PlyType::Uint8;  // of a list's length
 };
 
 struct PlyElement {
   std::string_view name;
-  std::uint64_t count = 0;   // as the file claims; not to be trusted with memory
+  std::uint64_t count = 0;  // as the file claims; not to be trusted with memory
   std::vector<PlyProperty> properties;
 
   // The index of a property; properties.size() where there is none.
   std::size_t find(std::string_view property) const;
-  std::size_t smallestBytes(bool binary) const;   // that one of them can take
+  std::size_t smallestBytes(bool binary) const;  // that one of them can take
 };
 
 struct PlyHeader {
   enum class Encoding { Ascii, LittleEndian, BigEndian };
   Encoding encoding = Encoding::Ascii;
   std::vector<PlyElement> elements;
-  std::size_t bodyStart = 0;   // byte
+  std::size_t bodyStart = 0;  // byte
 };
 
 PlyHeader readPlyHeader(const Source& source);

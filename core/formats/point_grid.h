@@ -51,7 +51,9 @@ class PointGrid {
     const double cell = size_[axis] > 0 ? (value - low_[axis]) / size_[axis] : 0.0;
     return static_cast<int>(std::clamp(cell, 0.0, side_ - 1.0));
   }
-  std::size_t cellOf(const glm::dvec2& p) const { return static_cast<std::size_t>(column(p.y, 1)) * side_ + column(p.x, 0); }
+  std::size_t cellOf(const glm::dvec2& p) const {
+    return static_cast<std::size_t>(column(p.y, 1)) * side_ + column(p.x, 0);
+  }
 
   glm::dvec2 low_{0}, size_{0};
   int side_ = 1;

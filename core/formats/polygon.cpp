@@ -13,9 +13,9 @@ namespace {
 
 // How far corners may lie off their common plane. Rounding to float32 moves a corner by sqrt(3)/2 ulp at most and tilts the mean plane as much
 // again; for doubles, the film that is told apart from rounding is 1e-10 of the extent, as in the coplanarity module.
-constexpr double kFloatRounding = 4.0 / (1 << 24);    // of the largest coordinate
+constexpr double kFloatRounding = 4.0 / (1 << 24);  // of the largest coordinate
 constexpr double kDoubleRounding = 4.0 / 9007199254740992.0;
-constexpr double kDoubleFilm = 1e-10;                 // of the polygon's extent
+constexpr double kDoubleFilm = 1e-10;  // of the polygon's extent
 
 // Outside of these, squares of areas overflow or vanish; the polygon is scaled by a power of two first.
 constexpr double kLargestPlain = 1e70, kSmallestPlain = 1e-70;
@@ -115,7 +115,8 @@ bool PolygonCutter::isStrictlyConvex() const {
 
 void PolygonCutter::fan(std::uint32_t apex) {
   const auto count = static_cast<std::uint32_t>(points_.size());
-  for (std::uint32_t i = 1; i + 1 < count; ++i) triangles_.emplace_back(apex, (apex + i) % count, (apex + i + 1) % count);
+  for (std::uint32_t i = 1; i + 1 < count; ++i)
+    triangles_.emplace_back(apex, (apex + i) % count, (apex + i + 1) % count);
 }
 
 double PolygonCutter::turn(std::uint32_t corner) const {

@@ -17,9 +17,9 @@ namespace copeel {
 class PolygonCutter {
  public:
   enum class Result {
-    Planar,       // all triangles lie in one plane, within the rounding of the input
-    NotPlanar,    // no such plane: cut as seen along the polygon's mean normal
-    TooComplex,   // the work allowed to all polygons of a file is spent; no triangles
+    Planar,      // all triangles lie in one plane, within the rounding of the input
+    NotPlanar,   // no such plane: cut as seen along the polygon's mean normal
+    TooComplex,  // the work allowed to all polygons of a file is spent; no triangles
   };
 
   // At least 3 corners. singlePrecision: the coordinates were rounded to float32 before they came here.
@@ -37,12 +37,12 @@ class PolygonCutter {
   bool isEar(std::uint32_t corner);
   void clip(std::uint32_t corner);
 
-  std::vector<glm::dvec2> points_;                     // the corners in the polygon's plane, counter-clockwise
-  std::vector<std::uint32_t> previous_, next_;         // the ring of corners not yet clipped
-  PointGrid reflex_;                                   // corners that were not convex at first: only they can lie in an ear
+  std::vector<glm::dvec2> points_;              // the corners in the polygon's plane, counter-clockwise
+  std::vector<std::uint32_t> previous_, next_;  // the ring of corners not yet clipped
+  PointGrid reflex_;                            // corners that were not convex at first: only they can lie in an ear
   std::vector<std::uint8_t> clipped_;
   std::vector<glm::uvec3> triangles_;
-  std::uint64_t workLeft_ = 500'000'000;               // corners looked at; a few seconds
+  std::uint64_t workLeft_ = 500'000'000;  // corners looked at; a few seconds
 };
 
 }  // namespace copeel

@@ -13,9 +13,11 @@ namespace copeel {
 namespace {
 
 constexpr std::array<std::string_view, 30> kPassedOver = {
-    "vt", "vn", "vp", "g", "o", "s", "mg", "l", "p", "usemtl", "mtllib", "usemap", "maplib", "bevel", "c_interp", "d_interp", "lod",
-    "shadow_obj", "trace_obj", "cstype", "deg", "bmat", "step", "parm", "trim", "hole", "scrv", "sp", "end", "con"};
-constexpr std::array<std::string_view, 9> kNotRead = {"curv", "curv2", "surf", "bzp", "bsp", "cdc", "cdp", "call", "csh"};
+    "vt",     "vn",     "vp",     "g",     "o",        "s",        "mg",   "l",          "p",         "usemtl",
+    "mtllib", "usemap", "maplib", "bevel", "c_interp", "d_interp", "lod",  "shadow_obj", "trace_obj", "cstype",
+    "deg",    "bmat",   "step",   "parm",  "trim",     "hole",     "scrv", "sp",         "end",       "con"};
+constexpr std::array<std::string_view, 9> kNotRead = {"curv", "curv2", "surf", "bzp", "bsp",
+                                                      "cdc",  "cdp",   "call", "csh"};
 
 template <std::size_t n>
 bool isOneOf(const std::array<std::string_view, n>& words, std::string_view word) {
@@ -69,12 +71,15 @@ class ObjReader {
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view token = lineToken();
       switch (parseNumber(token, position[axis])) {
-        case NumberFault::None: break;
-        case NumberFault::NotANumber: cursor_.fail("a coordinate should be here, found {}", quoted(token));
-        case NumberFault::NotFinite: cursor_.fail("a coordinate is not a finite number: {}", quoted(token));
+        case NumberFault::None:
+          break;
+        case NumberFault::NotANumber:
+          cursor_.fail("a coordinate should be here, found {}", quoted(token));
+        case NumberFault::NotFinite:
+          cursor_.fail("a coordinate is not a finite number: {}", quoted(token));
       }
     }
-    builder_.addVertex(position);   // a weight or a colour may follow
+    builder_.addVertex(position);  // a weight or a colour may follow
   }
 
   void readFace() {
@@ -83,7 +88,8 @@ class ObjReader {
     for (std::string_view token = lineToken(); !token.empty(); token = lineToken()) {
       // v, v/t, v//n or v/t/n; positive numbers count from the first vertex, negative ones back from the last so far.
       std::int64_t number = 0;
-      if (!parseInteger(token.substr(0, token.find('/')), number)) cursor_.fail("a vertex index should be here, found {}", quoted(token));
+      if (!parseInteger(token.substr(0, token.find('/')), number))
+        cursor_.fail("a vertex index should be here, found {}", quoted(token));
       if (number == 0) cursor_.fail("vertex index 0: OBJ counts from 1");
       const auto known = static_cast<std::int64_t>(builder_.vertexCount());
       if (number < -known) cursor_.fail("vertex index {} is out of range: {} vertices so far", number, known);
@@ -103,7 +109,8 @@ class ObjReader {
 bool looksLikeObj(const Source& source) {
   TextCursor cursor(source, 0, '#');
   const std::string_view word = cursor.token();
-  if (word.empty()) return std::find(source.data(), source.data() + source.size(), '#') != source.data() + source.size();
+  if (word.empty())
+    return std::find(source.data(), source.data() + source.size(), '#') != source.data() + source.size();
   // A lone letter is no mesh: the "p" may be all that is left of a PLY.
   if (cursor.atEnd()) return false;
   return word == "v" || word == "f" || word == "fo" || isOneOf(kPassedOver, word) || isOneOf(kNotRead, word);

@@ -12,7 +12,7 @@
 namespace copeel {
 namespace {
 
-constexpr std::size_t kSmallestVertexBytes = 6, kSmallestFaceBytes = 2;   // "0 0 0\n", "0\n"
+constexpr std::size_t kSmallestVertexBytes = 6, kSmallestFaceBytes = 2;  // "0 0 0\n", "0\n"
 
 // What follows OFF in the first token; some data sets write the vertex count there ("OFF490 518 0").
 std::optional<std::string_view> afterKeyword(std::string_view token) {
@@ -34,7 +34,8 @@ Counts readHeader(TextCursor& cursor) {
   const std::string_view keyword = cursor.token();
   const std::optional<std::string_view> glued = afterKeyword(keyword);
   if (!glued) cursor.fail("OFF should be here, found {}", quoted(keyword));
-  if (keyword.find_first_of("4n") < keyword.find("OFF")) cursor.fail("vertices of other than three dimensions ({})", quoted(keyword));
+  if (keyword.find_first_of("4n") < keyword.find("OFF"))
+    cursor.fail("vertices of other than three dimensions ({})", quoted(keyword));
   Counts counts;
   if (glued->empty()) {
     TextCursor ahead = cursor;

@@ -57,18 +57,26 @@ class BinaryValues {
   std::size_t place() const { return at_; }
   double coordinate(PlyType type) {
     const double value = number(type);
-    if (!std::isfinite(value)) source_.failAtByte(at_ - sizeBytes(type), "a coordinate is not a finite number: {}", value);
+    if (!std::isfinite(value))
+      source_.failAtByte(at_ - sizeBytes(type), "a coordinate is not a finite number: {}", value);
     return value;
   }
   std::int64_t integer(PlyType type) {
     switch (type) {
-      case PlyType::Int8: return take<std::int8_t>();
-      case PlyType::Uint8: return take<std::uint8_t>();
-      case PlyType::Int16: return take<std::int16_t>();
-      case PlyType::Uint16: return take<std::uint16_t>();
-      case PlyType::Int32: return take<std::int32_t>();
-      case PlyType::Uint32: return take<std::uint32_t>();
-      default: fail("an integer should be here");
+      case PlyType::Int8:
+        return take<std::int8_t>();
+      case PlyType::Uint8:
+        return take<std::uint8_t>();
+      case PlyType::Int16:
+        return take<std::int16_t>();
+      case PlyType::Uint16:
+        return take<std::uint16_t>();
+      case PlyType::Int32:
+        return take<std::int32_t>();
+      case PlyType::Uint32:
+        return take<std::uint32_t>();
+      default:
+        fail("an integer should be here");
     }
   }
   void skip(PlyType type, std::uint64_t count) {
@@ -149,7 +157,8 @@ class PlyBody {
     const std::array<std::string_view, 3> names = {"x", "y", "z"};
     for (int axis = 0; axis < 3; ++axis) {
       const std::size_t at = element.find(names[axis]);
-      if (at == axes.size() || element.properties[at].isList) values_.fail("the vertices have no number {}", names[axis]);
+      if (at == axes.size() || element.properties[at].isList)
+        values_.fail("the vertices have no number {}", names[axis]);
       axes[at] = axis;
       if (element.properties[at].type == PlyType::Float32) builder_.setSinglePrecision();
     }
@@ -169,7 +178,8 @@ class PlyBody {
   void readFaces(const PlyElement& element) {
     const std::span<const PlyProperty> all = element.properties;
     const std::size_t at = std::min(element.find("vertex_indices"), element.find("vertex_index"));
-    if (at == all.size() || !all[at].isList || !isInteger(all[at].type)) values_.fail("the faces have no list of vertex indices");
+    if (at == all.size() || !all[at].isList || !isInteger(all[at].type))
+      values_.fail("the faces have no list of vertex indices");
     const bool strips = element.name == "tristrips";
     for (std::uint64_t i = 0; i < element.count; ++i) {
       skipAll(all.first(at));
@@ -232,9 +242,12 @@ bool looksLikePly(const Source& source) { return TextCursor(source).token() == "
 Mesh readPly(const Source& source) {
   const PlyHeader header = readPlyHeader(source);
   switch (header.encoding) {
-    case PlyHeader::Encoding::LittleEndian: return PlyBody<BinaryValues<false>>(source, header, SoupBuilder::Place::Byte).read();
-    case PlyHeader::Encoding::BigEndian: return PlyBody<BinaryValues<true>>(source, header, SoupBuilder::Place::Byte).read();
-    default: return PlyBody<AsciiValues>(source, header, SoupBuilder::Place::Line).read();
+    case PlyHeader::Encoding::LittleEndian:
+      return PlyBody<BinaryValues<false>>(source, header, SoupBuilder::Place::Byte).read();
+    case PlyHeader::Encoding::BigEndian:
+      return PlyBody<BinaryValues<true>>(source, header, SoupBuilder::Place::Byte).read();
+    default:
+      return PlyBody<AsciiValues>(source, header, SoupBuilder::Place::Line).read();
   }
 }
 

@@ -19,7 +19,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "binary STL is read as it lies in memory");
 
 constexpr std::size_t kHeaderBytes = 84, kCountAt = 80, kTriangleBytes = 50, kNormalBytes = 12;
-constexpr std::size_t kSmallestFacetBytes = 60;   // "facet normal … endfacet" in ascii
+constexpr std::size_t kSmallestFacetBytes = 60;  // "facet normal … endfacet" in ascii
 
 std::uint64_t binarySize(const Source& source) {
   std::uint32_t count = 0;
@@ -27,11 +27,14 @@ std::uint64_t binarySize(const Source& source) {
   return kHeaderBytes + std::uint64_t{count} * kTriangleBytes;
 }
 
-bool isExactlyBinary(const Source& source) { return source.size() >= kHeaderBytes && binarySize(source) == source.size(); }
+bool isExactlyBinary(const Source& source) {
+  return source.size() >= kHeaderBytes && binarySize(source) == source.size();
+}
 
 // Text has no zero bytes; a binary header or its count nearly always has.
 bool hasZeroByte(const Source& source) {
-  return source.size() > 0 && std::memchr(source.data(), 0, std::min(source.size(), kHeaderBytes + kTriangleBytes)) != nullptr;
+  return source.size() > 0 &&
+         std::memchr(source.data(), 0, std::min(source.size(), kHeaderBytes + kTriangleBytes)) != nullptr;
 }
 
 bool sameWord(std::string_view token, std::string_view lower) {
@@ -43,7 +46,8 @@ Mesh readBinary(const Source& source) {
   if (source.size() < kHeaderBytes) source.failAtByte(source.size(), "truncated in the header of a binary STL");
   const std::uint64_t expected = binarySize(source);
   const std::uint64_t count = (expected - kHeaderBytes) / kTriangleBytes;
-  if (source.size() < expected) source.failAtByte(source.size(), "truncated: {} triangles need {} bytes", count, expected);
+  if (source.size() < expected)
+    source.failAtByte(source.size(), "truncated: {} triangles need {} bytes", count, expected);
   if (source.size() > expected) source.failAtByte(expected, "more bytes follow the {} triangles of the header", count);
   SoupBuilder builder(source, SoupBuilder::Place::Byte);
   builder.setSinglePrecision();

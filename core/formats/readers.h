@@ -9,7 +9,7 @@ namespace copeel {
 Mesh readObj(const Source& source);
 Mesh readOff(const Source& source);
 Mesh readPly(const Source& source);
-Mesh readStl(const Source& source);   // ascii or binary
+Mesh readStl(const Source& source);  // ascii or binary
 
 // What a first look at the bytes says; readMesh asks in this order. At most one is true of a sound file.
 bool looksLikePly(const Source& source);

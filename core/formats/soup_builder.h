@@ -15,7 +15,8 @@ class SoupBuilder {
  public:
   enum class Place { Line, Byte };
   // firstIndex: what the file calls its first vertex (OBJ counts from 1).
-  SoupBuilder(const Source& source, Place kind, int firstIndex = 0) : source_(source), kind_(kind), firstIndex_(firstIndex) {}
+  SoupBuilder(const Source& source, Place kind, int firstIndex = 0)
+      : source_(source), kind_(kind), firstIndex_(firstIndex) {}
 
   // A hint. Counts in a header may lie, so callers bound them by what the rest of the file could hold.
   void reserve(std::size_t vertices, std::size_t triangles);
@@ -36,8 +37,8 @@ class SoupBuilder {
  private:
   static constexpr std::int64_t kLargestIndex = 0xffffffff;
   struct Polygon {
-    std::size_t triangleBefore;   // it stands after this many plain triangles
-    std::size_t firstCorner;      // in corners_
+    std::size_t triangleBefore;  // it stands after this many plain triangles
+    std::size_t firstCorner;     // in corners_
     std::size_t cornerCount;
     std::size_t place;
   };
@@ -57,7 +58,7 @@ class SoupBuilder {
   Mesh mesh_;
   std::vector<Polygon> polygons_;
   std::vector<std::uint32_t> corners_;
-  std::int64_t highestIndex_ = -1;    // of any face; one comparison at the end checks them all
+  std::int64_t highestIndex_ = -1;  // of any face; one comparison at the end checks them all
   std::size_t highestPlace_ = 0;
 };
 

@@ -99,9 +99,12 @@ double TextCursor::number(const char* what) {
   if (text.empty()) fail("the file ends where {} should be", what);
   double value = 0;
   switch (parseNumber(text, value)) {
-    case NumberFault::None: break;
-    case NumberFault::NotANumber: fail("{} should be here, found {}", what, quoted(text));
-    case NumberFault::NotFinite: fail("{} is not a finite number: {}", what, quoted(text));
+    case NumberFault::None:
+      break;
+    case NumberFault::NotANumber:
+      fail("{} should be here, found {}", what, quoted(text));
+    case NumberFault::NotFinite:
+      fail("{} is not a finite number: {}", what, quoted(text));
   }
   return value;
 }

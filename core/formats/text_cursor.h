@@ -18,13 +18,13 @@ class TextCursor {
       : source_(&source), at_(source.data() + start), end_(source.data() + source.size()), comment_(comment) {}
 
   std::size_t place() const { return static_cast<std::size_t>(at_ - source_->data()); }
-  bool atEnd();        // nothing but white space and comments is left; they are skipped
-  bool atLineEnd();    // likewise for this line; the line end itself is not skipped
-  void skipLine();     // to the first byte of the next line
+  bool atEnd();      // nothing but white space and comments is left; they are skipped
+  bool atLineEnd();  // likewise for this line; the line end itself is not skipped
+  void skipLine();   // to the first byte of the next line
 
-  std::string_view token();         // across line ends; empty at the end of the source
-  std::string_view lineToken();     // of this line; empty at its end
-  std::string_view restOfLine();    // without the line end, which is skipped
+  std::string_view token();       // across line ends; empty at the end of the source
+  std::string_view lineToken();   // of this line; empty at its end
+  std::string_view restOfLine();  // without the line end, which is skipped
 
   // The next token (across line ends) as a value; `what` names it in the error. Numbers are finite: nan, inf and 1e400 are errors.
   double number(const char* what);
@@ -48,7 +48,7 @@ class TextCursor {
   const char* at_;
   const char* end_;
   char comment_;
-  std::size_t tokenPlace_ = 0;   // where the last token began: the line that an error names
+  std::size_t tokenPlace_ = 0;  // where the last token began: the line that an error names
 };
 
 // The value of a whole token; false when it is anything else. An integer saturates nowhere: out of range is false too.

@@ -15,7 +15,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "samples are written and read as they lie in memory");
 
-constexpr int kLargestSide = 1 << 20;   // pixels; keeps width · height · sample far from overflow
+constexpr int kLargestSide = 1 << 20;  // pixels; keeps width · height · sample far from overflow
 
 int readSide(TextCursor& cursor) {
   const std::int64_t side = cursor.integer("an image size");
@@ -63,14 +63,16 @@ Image<float> readPfm(const std::string& path) {
   // One white-space byte ends the header; the samples follow.
   const std::size_t start = cursor.place() + 1, rowBytes = sizeof(float) * width;
   if (start > source.size() || source.size() - start < rowBytes * height) {
-    source.failAtByte(source.size(), "truncated: {} x {} pixels need {} bytes of samples", width, height, rowBytes * height);
+    source.failAtByte(source.size(), "truncated: {} x {} pixels need {} bytes of samples", width, height,
+                      rowBytes * height);
   }
   Image<float> image(width, height);
   for (int y = 0; y < height; ++y) {
     std::memcpy(&image.at(0, height - 1 - y), source.data() + start + rowBytes * y, rowBytes);
   }
   if (scale > 0) {
-    for (float& value : image.pixels) value = std::bit_cast<float>(__builtin_bswap32(std::bit_cast<std::uint32_t>(value)));
+    for (float& value : image.pixels)
+      value = std::bit_cast<float>(__builtin_bswap32(std::bit_cast<std::uint32_t>(value)));
   }
   return image;
 }

@@ -23,7 +23,8 @@ Image<Rgb8> gradient(int width, int height) {
   Image<Rgb8> image(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      image.at(x, y) = {static_cast<std::uint8_t>(x / 4), static_cast<std::uint8_t>(y / 4), static_cast<std::uint8_t>((x / 64) ^ (y / 64))};
+      image.at(x, y) = {static_cast<std::uint8_t>(x / 4), static_cast<std::uint8_t>(y / 4),
+                        static_cast<std::uint8_t>((x / 64) ^ (y / 64))};
     }
   }
   return image;
@@ -31,7 +32,8 @@ Image<Rgb8> gradient(int width, int height) {
 
 TEST(Png, survivesAndIsDeterministic) {
   const TemporaryFolder folder;
-  for (const auto& [width, height] : {std::pair(1, 1), std::pair(7, 3), std::pair(300, 200), std::pair(16384, 1), std::pair(1, 16384)}) {
+  for (const auto& [width, height] :
+       {std::pair(1, 1), std::pair(7, 3), std::pair(300, 200), std::pair(16384, 1), std::pair(1, 16384)}) {
     const Image<Rgb8> image = gradient(width, height);
     writePng(folder.file("a.png"), image);
     writePng(folder.file("b.png"), image);
@@ -54,7 +56,8 @@ TEST(Png, isWrittenQuickly) {
   for (int i = 0; i < 5; ++i) {
     const auto start = std::chrono::steady_clock::now();
     writePng(folder.file("a.png"), image);
-    fastest = std::min(fastest, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    fastest =
+        std::min(fastest, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
   }
   RecordProperty("milliseconds", std::to_string(fastest));
   EXPECT_LT(fastest, 24);

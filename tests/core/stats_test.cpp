@@ -17,11 +17,13 @@ TEST(Stats, holdsEveryNameOfTheDesign) {
   stats.memoryBytes = 1ull << 40;
   stats.loadMs = 1.5;
   const nlohmann::json json = nlohmann::json::parse(toJson(stats));
-  for (const char* name : {"method", "backend", "width", "height", "triangles", "leaves", "plane_classes", "fragments", "fragments_captured", "rh",
-                           "depth_complexity_max", "coplanar_pixels", "cp", "overflow", "passes", "memory_bytes", "decided_exactly", "ms"}) {
+  for (const char* name : {"method", "backend", "width", "height", "triangles", "leaves", "plane_classes", "fragments",
+                           "fragments_captured", "rh", "depth_complexity_max", "coplanar_pixels", "cp", "overflow",
+                           "passes", "memory_bytes", "decided_exactly", "ms"}) {
     EXPECT_TRUE(json.contains(name)) << name;
   }
-  for (const char* name : {"load", "prepare", "frame_median", "frame_min", "total"}) EXPECT_TRUE(json["ms"].contains(name)) << name;
+  for (const char* name : {"load", "prepare", "frame_median", "frame_min", "total"})
+    EXPECT_TRUE(json["ms"].contains(name)) << name;
   EXPECT_EQ(json["rh"], 0.75);
   EXPECT_EQ(json["cp"], 0.25);
   EXPECT_EQ(json["memory_bytes"], 1ull << 40);

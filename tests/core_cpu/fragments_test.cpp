@@ -47,7 +47,7 @@ TEST(Fragments, coplanarOnesInOnePixelAreOneGroup) {
     const Group& group = stacks.at(0, 0)[0];
     ASSERT_EQ(group.size(), count);
     for (unsigned i = 0; i < count; ++i) ASSERT_EQ(group[i].primitive, i);
-    EXPECT_EQ(stacks.counts.coplanarPixels, count > 1);
+    EXPECT_EQ(stacks.counts.walk.coplanarPixels, count > 1);
   }
 }
 

@@ -91,7 +91,7 @@ TEST(Gates, theOpaqueShareTakesTranslucentLeavesThatAddAsEmpty) {
   EXPECT_TRUE(forest.outputs[1].opaqueShare);
   PrunedForest pruned;
   pruned.prune(forest, std::vector<std::uint32_t>{0, 1, 2});
-  const auto of = [&](bool a, bool b, bool c) { return outputsOf(pruned, {0, 1, 2}, {a, b, c}, 2)[1]; };
+  const auto of = [&](bool a, bool b, bool c) -> bool { return outputsOf(pruned, {0, 1, 2}, {a, b, c}, 2)[1]; };
   EXPECT_FALSE(of(true, false, false));
   EXPECT_TRUE(of(false, true, false));
   EXPECT_FALSE(of(false, true, true));   // a translucent cutter cuts

@@ -15,7 +15,7 @@ Mesh tetrahedron() {
   return mesh;
 }
 
-void append(Mesh& mesh, Mesh other) {   // by value: a mesh may be appended to itself
+void append(Mesh& mesh, Mesh other) {  // by value: a mesh may be appended to itself
   const auto shift = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
   for (const glm::uvec3& t : other.triangles) mesh.triangles.push_back(t + shift);
@@ -89,7 +89,8 @@ TEST(MeshStatus, duplicatesOfEitherOrientation) {
 TEST(MeshStatus, zeroAreaIsFoundExactly) {
   // As doubles, (0.1, 0.2, 0.3) and (0.3, 0.6, 0.9) are not on one line with the origin; quarters are. An area of 1e-600 is not none.
   Mesh mesh;
-  mesh.vertices = {{0, 0, 0}, {0.25, 0.5, 0.75}, {0.5, 1, 1.5}, {0.1, 0.2, 0.3}, {0.3, 0.6, 0.9}, {1e-300, 0, 0}, {0, 1e-300, 0}};
+  mesh.vertices = {{0, 0, 0},       {0.25, 0.5, 0.75}, {0.5, 1, 1.5}, {0.1, 0.2, 0.3},
+                   {0.3, 0.6, 0.9}, {1e-300, 0, 0},    {0, 1e-300, 0}};
   mesh.triangles = {{0, 1, 2}, {0, 1, 1}, {5, 6, 0}, {0, 3, 4}};
   const MeshStatus status = statusOf(mesh);
   EXPECT_EQ(status.degenerateTriangleCount, 2u);

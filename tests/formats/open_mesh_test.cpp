@@ -20,7 +20,8 @@ using Corners = std::array<std::array<double, 3>, 3>;
 PolyMesh openCube() {
   PolyMesh mesh;
   std::vector<PolyMesh::VertexHandle> v;
-  for (int i = 0; i < 8; ++i) v.push_back(mesh.add_vertex({i & 1 ? 1.5f : -0.25f, i & 2 ? 2.f : 0.f, i & 4 ? 1.f : -0.125f}));
+  for (int i = 0; i < 8; ++i)
+    v.push_back(mesh.add_vertex({i & 1 ? 1.5f : -0.25f, i & 2 ? 2.f : 0.f, i & 4 ? 1.f : -0.125f}));
   const int quads[5][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}};
   for (const auto& q : quads) {
     mesh.add_face(v[q[0]], v[q[1]], v[q[2]]);
@@ -66,10 +67,13 @@ TEST(OpenMeshWriters, areReadBack) {
   PolyMesh cube = openCube();
   cube.request_face_normals();
   cube.update_normals();
-  const std::pair<const char*, Options> forms[] = {{"a.off", Options::Default},  {"a.obj", Options::Default},
-                                                   {"a.ply", Options::Default},  {"b.ply", Options::Binary},
+  const std::pair<const char*, Options> forms[] = {{"a.off", Options::Default},
+                                                   {"a.obj", Options::Default},
+                                                   {"a.ply", Options::Default},
+                                                   {"b.ply", Options::Binary},
                                                    {"c.ply", Options::Binary | Options::MSB},
-                                                   {"a.stl", Options::Default},  {"b.stl", Options::Binary}};
+                                                   {"a.stl", Options::Default},
+                                                   {"b.stl", Options::Binary}};
   for (const auto& [name, options] : forms) {
     ASSERT_TRUE(OpenMesh::IO::write_mesh(cube, folder.file(name), options)) << name;
     const Mesh read = readMesh(folder.file(name));

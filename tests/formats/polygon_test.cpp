@@ -58,13 +58,16 @@ TEST(Polygon, combsSpiralsCollinearCornersAndKeyholes) {
   expectCover(comb, {0, 0, 1}, area);
   expectCover({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}, {0, 2, 0}, {0, 1, 0}}, {0, 0, 1}, 4);
   // A square with a square hole, joined by a cut that runs there and back.
-  expectCover({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0}, {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}}, {0, 0, 1}, 12);
+  expectCover(
+      {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0}, {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}},
+      {0, 0, 1}, 12);
 }
 
 TEST(Polygon, extremeCoordinates) {
   for (const double scale : {1e-300, 1e-150, 1e150, 1e307}) {
     PolygonCutter cutter;
-    const Points points = {{0, 0, 0}, {2 * scale, 0, 0}, {2 * scale, scale, 0}, {scale, scale, 0}, {scale, 2 * scale, 0}, {0, 2 * scale, 0}};
+    const Points points = {{0, 0, 0},         {2 * scale, 0, 0},     {2 * scale, scale, 0},
+                           {scale, scale, 0}, {scale, 2 * scale, 0}, {0, 2 * scale, 0}};
     EXPECT_EQ(cutter.cut(points, false), PolygonCutter::Result::Planar) << scale;
     EXPECT_EQ(cutter.triangles().size(), 4u);
   }
@@ -81,7 +84,8 @@ TEST(Polygon, withoutAreaOrCrossingItselfNothingIsLost) {
 }
 
 TEST(Polygon, facetsAreSharedOnlyWhereFlat) {
-  const std::string cubeAndTriangle = "OFF 6 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 1 1\n3 0 1 4\n4 0 1 2 3\n3 0 1 5\n";
+  const std::string cubeAndTriangle =
+      "OFF 6 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 1 1\n3 0 1 4\n4 0 1 2 3\n3 0 1 5\n";
   const Mesh flat = meshOf(cubeAndTriangle + "4 0 1 5 4\n");
   EXPECT_EQ(flat.facets, (std::vector<std::uint32_t>{0, 1, 1, 2, 3, 4}));
   EXPECT_EQ(flat.facetCount(), 5u);
@@ -93,7 +97,8 @@ TEST(Polygon, roundingToTheFilesPrecisionStaysFlat) {
   // An oblique square, its corners rounded to float: flat for a float file, a film of 1e-8 for a double file.
   Points square;
   for (const glm::dvec2 p : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1), glm::dvec2(0, 1)}) {
-    const glm::dvec3 exact = glm::dvec3(0.3, 0.2, 0.7) + p.x * glm::dvec3(0.61, 0.33, 0.1) + p.y * glm::dvec3(-0.2, 0.47, 0.83);
+    const glm::dvec3 exact =
+        glm::dvec3(0.3, 0.2, 0.7) + p.x * glm::dvec3(0.61, 0.33, 0.1) + p.y * glm::dvec3(-0.2, 0.47, 0.83);
     square.emplace_back(double{float(exact.x)}, double{float(exact.y)}, double{float(exact.z)});
   }
   PolygonCutter cutter;
@@ -115,7 +120,8 @@ RC_GTEST_PROP(PolygonProperty, starsAreCovered, ()) {
   RC_ASSERT(cutter.cut(points, false) == PolygonCutter::Result::Planar);
   RC_ASSERT(cutter.triangles().size() == points.size() - 2);
   double sum = 0;
-  for (const glm::uvec3& t : cutter.triangles()) sum += std::abs(areaAlong({0, 0, 1}, points[t.x], points[t.y], points[t.z]));
+  for (const glm::uvec3& t : cutter.triangles())
+    sum += std::abs(areaAlong({0, 0, 1}, points[t.x], points[t.y], points[t.z]));
   RC_ASSERT(std::abs(sum - area) < 1e-9 * area);
 }
 

@@ -9,16 +9,20 @@
 namespace copeel {
 namespace {
 
-const std::string kPly = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                         "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
+const std::string kPly =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
 
 std::string binaryPly(const std::string& vertexCount, const std::string& body) {
   return "ply\nformat binary_little_endian 1.0\nelement vertex " + vertexCount +
-         "\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uint int vertex_indices\nend_header\n" + body;
+         "\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uint int "
+         "vertex_indices\nend_header\n" +
+         body;
 }
 
 TEST(Faults, indexOutOfRangeNamesTheLineAndTheFilesOwnNumber) {
-  EXPECT_EQ(faultOf("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 3\n"), "m:7: vertex index 3 is out of range: the file has 3 vertices");
+  EXPECT_EQ(faultOf("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 3\n"),
+            "m:7: vertex index 3 is out of range: the file has 3 vertices");
   EXPECT_EQ(faultOf("v 0 0 0\nv 1 0 0\nf 1 2 3\n"), "m:3: vertex index 3 is out of range: the file has 2 vertices");
   EXPECT_EQ(faultOf("v 0 0 0\nf 1 1 -2\n"), "m:2: vertex index -2 is out of range: 1 vertices so far");
   EXPECT_EQ(faultOf("v 0 0 0\nf 0 1 1\n"), "m:2: vertex index 0: OBJ counts from 1");
@@ -33,7 +37,8 @@ TEST(Faults, coordinatesMustBeFinite) {
   }
   const std::string floats = bytesOf(0.f) + bytesOf(__builtin_nanf("")) + bytesOf(0.f);
   const std::string fault = faultOf(binaryPly("1", floats + bytesOf(std::uint32_t{0})));
-  EXPECT_EQ(fault, "m: byte " + std::to_string(binaryPly("1", "").size() + 4) + ": a coordinate is not a finite number: nan");
+  EXPECT_EQ(fault,
+            "m: byte " + std::to_string(binaryPly("1", "").size() + 4) + ": a coordinate is not a finite number: nan");
 }
 
 TEST(Faults, wordsWhereNumbersShouldBe) {
@@ -50,7 +55,8 @@ TEST(Faults, everyTruncationOfATextIsNoticed) {
   for (std::size_t size = 0; size < off.size(); ++size) EXPECT_NE(faultOf(off.substr(0, size)), "") << size;
   const std::string ply = kPly + "3 0 1 2";
   for (std::size_t size = 0; size < ply.size(); ++size) EXPECT_NE(faultOf(ply.substr(0, size)), "") << size;
-  const std::string stl = "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid";
+  const std::string stl =
+      "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid";
   for (std::size_t size = 0; size < stl.size(); ++size) EXPECT_NE(faultOf(stl.substr(0, size)), "") << size;
 }
 
@@ -66,7 +72,8 @@ TEST(Faults, everyTruncationOfABinaryFileIsNoticed) {
 }
 
 TEST(Faults, whatTheCountsLeaveOverIsNotDropped) {
-  EXPECT_EQ(faultOf("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n"), "m:7: the file should end here by its counts, found '3'");
+  EXPECT_EQ(faultOf("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n"),
+            "m:7: the file should end here by its counts, found '3'");
   EXPECT_EQ(faultOf(kPly + "3 0 1 2\n3 2 1 0\n"), "m:14: the file should end here by its counts, found '3'");
   EXPECT_NE(faultOf("solid\nendsolid\nrubbish\n"), "");
 }
@@ -96,7 +103,8 @@ TEST(Faults, otherKindsOfFiles) {
   EXPECT_EQ(faultOf("v 0 0 0\nsurf 0 1 0 1 1\n"), "m:2: curved surfaces and calls are not read (surf)");
   EXPECT_NE(faultOf("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n"), "");
   EXPECT_NE(faultOf("ply\nformat ascii 1.0\nelement face 1\nproperty int x\nend_header\n0\n"), "");
-  EXPECT_NE(faultOf("ply\nformat ascii 1.0\nelement face 1\nproperty list uchar float vertex_indices\nend_header\n0\n"), "");
+  EXPECT_NE(faultOf("ply\nformat ascii 1.0\nelement face 1\nproperty list uchar float vertex_indices\nend_header\n0\n"),
+            "");
 }
 
 std::string faultOfFile(const std::string& path) {
@@ -121,7 +129,10 @@ TEST(Files, cannotBeOpened) {
 
 TEST(Files, namesAreJustNames) {
   const TemporaryFolder folder;
-  for (const char* name : {"with spaces.off", "-leading", "gr\xc3\xbc\xc3\x9f" "e \xe6\xa8\xa1.stl", "wrong.stl", "noextension", "new\nline"}) {
+  for (const char* name : {"with spaces.off", "-leading",
+                           "gr\xc3\xbc\xc3\x9f"
+                           "e \xe6\xa8\xa1.stl",
+                           "wrong.stl", "noextension", "new\nline"}) {
     EXPECT_EQ(faultOfFile(folder.write(name, "OFF\n0 0 0\n")), "") << name;
     const std::string fault = faultOfFile(folder.write(name, "OFF\nx 0 0\n"));
     EXPECT_NE(fault, "");

@@ -18,12 +18,14 @@ TEST(Off, readsCountsVerticesAndFaces) {
 }
 
 TEST(Off, everyVariantBeginsItsVerticesWithThePosition) {
-  for (const char* text : {"COFF\n3 1 0\n0 0 0 255 0 0 255\n1 0 0 255 0 0 255\n0 1 0 0 0 0 0\n3 0 1 2 1 0 0\n",
-                           "NOFF 3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n",
-                           "STOFF\n3 1\n0 0 0 0.5 0.5\n1 0 0 0 0\n0 1 0 1 1\n3 0 1 2",
-                           "STCNOFF\r\n# a comment\r\n\r\n3 1 0\r\n0 0 0 0 0 1 1 1 1 1 0 0\r\n1 0 0\r\n0 1 0 # another\r\n3 0 1 2\r\n",
-                           "OFF3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "# first\nOFF 3 1 0\n0 0 0\n+1 0 0\n0 1e0 0\n3 0 1 2 0.5 0.5 0.5 1\n",
-                           "\xef\xbb\xbfOFF 3 1 0\r0 0 0\r1 0 0\r0 1 0\r3 0 1 2\r"}) {
+  for (const char* text :
+       {"COFF\n3 1 0\n0 0 0 255 0 0 255\n1 0 0 255 0 0 255\n0 1 0 0 0 0 0\n3 0 1 2 1 0 0\n",
+        "NOFF 3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n",
+        "STOFF\n3 1\n0 0 0 0.5 0.5\n1 0 0 0 0\n0 1 0 1 1\n3 0 1 2",
+        "STCNOFF\r\n# a comment\r\n\r\n3 1 0\r\n0 0 0 0 0 1 1 1 1 1 0 0\r\n1 0 0\r\n0 1 0 # another\r\n3 0 1 2\r\n",
+        "OFF3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+        "# first\nOFF 3 1 0\n0 0 0\n+1 0 0\n0 1e0 0\n3 0 1 2 0.5 0.5 0.5 1\n",
+        "\xef\xbb\xbfOFF 3 1 0\r0 0 0\r1 0 0\r0 1 0\r3 0 1 2\r"}) {
     const Mesh mesh = meshOf(text);
     ASSERT_EQ(mesh.vertices.size(), 3u) << text;
     EXPECT_EQ(mesh.vertices[1], glm::dvec3(1, 0, 0)) << text;
@@ -62,8 +64,10 @@ TEST(Obj, facesMayComeBeforeTheirVertices) {
 TEST(Obj, nothingButCommentsIsAMeshWithoutTriangles) { EXPECT_EQ(meshOf("# nothing\n").triangles.size(), 0u); }
 
 TEST(Stl, asciiKeepsDoublesAndSeveralSolids) {
-  const std::string facet = "facet normal nan nan nan\n outer loop\n vertex 0.1 0 0\n vertex 1 0 0\n vertex 0 1 0\n endloop\n endfacet\n";
-  const Mesh mesh = meshOf("solid a name with spaces\n" + facet + "endsolid a\nSOLID\r\n" + facet + facet + "ENDSOLID\n");
+  const std::string facet =
+      "facet normal nan nan nan\n outer loop\n vertex 0.1 0 0\n vertex 1 0 0\n vertex 0 1 0\n endloop\n endfacet\n";
+  const Mesh mesh =
+      meshOf("solid a name with spaces\n" + facet + "endsolid a\nSOLID\r\n" + facet + facet + "ENDSOLID\n");
   EXPECT_EQ(mesh.triangles.size(), 3u);
   EXPECT_EQ(mesh.vertices.size(), 9u);
   EXPECT_EQ(mesh.vertices[0].x, 0.1);
@@ -82,7 +86,8 @@ std::string binaryStl(std::string header, std::uint32_t count) {
 }
 
 TEST(Stl, binaryIsKnownByItsSizeEvenWhenItSaysSolid) {
-  for (const char* header : {"", "solid", "solid exported by a well-known program, padded with blanks                      "}) {
+  for (const char* header :
+       {"", "solid", "solid exported by a well-known program, padded with blanks                      "}) {
     const Mesh mesh = meshOf(binaryStl(header, 2));
     ASSERT_EQ(mesh.triangles.size(), 2u);
     EXPECT_TRUE(mesh.singlePrecision);
@@ -93,9 +98,12 @@ TEST(Stl, binaryIsKnownByItsSizeEvenWhenItSaysSolid) {
 
 TEST(Ply, asciiWithPropertiesInAnyOrderAndOtherElements) {
   const Mesh mesh = meshOf(
-      "ply\r\nformat ascii 1.0\r\ncomment x\r\nobj_info y\r\nelement camera 1\r\nproperty list uchar float odd\r\nproperty int n\r\n"
-      "element vertex 3\r\nproperty uchar red\r\nproperty double z\r\nproperty list int8 int16 extra\r\nproperty double x\r\nproperty int y\r\n"
-      "element face 1\r\nproperty float q\r\nproperty list ushort uint32 vertex_index\r\nproperty uchar f\r\nend_header\r\n"
+      "ply\r\nformat ascii 1.0\r\ncomment x\r\nobj_info y\r\nelement camera 1\r\nproperty list uchar float "
+      "odd\r\nproperty int n\r\n"
+      "element vertex 3\r\nproperty uchar red\r\nproperty double z\r\nproperty list int8 int16 extra\r\nproperty "
+      "double x\r\nproperty int y\r\n"
+      "element face 1\r\nproperty float q\r\nproperty list ushort uint32 vertex_index\r\nproperty uchar "
+      "f\r\nend_header\r\n"
       "2 0.5 nan 7\r\n255 0.1 2 9 9 1 5\r\n0 0 0 2 6\r\n0 0 1 3 4 7\r\n0.5 3 0 1 2 9\r\n");
   ASSERT_EQ(mesh.vertices.size(), 3u);
   EXPECT_EQ(mesh.vertices[0], glm::dvec3(1, 5, 0.1));
@@ -106,8 +114,8 @@ TEST(Ply, asciiWithPropertiesInAnyOrderAndOtherElements) {
 
 template <class Index, class Count>
 std::string binaryPly(const std::string& listTypes, bool bigEndian) {
-  std::string bytes = std::string("ply\nformat binary_") + (bigEndian ? "big" : "little") + "_endian 1.0\n" + kPlyVertices +
-                      "element face 2\nproperty list " + listTypes + " vertex_indices\nend_header\n";
+  std::string bytes = std::string("ply\nformat binary_") + (bigEndian ? "big" : "little") + "_endian 1.0\n" +
+                      kPlyVertices + "element face 2\nproperty list " + listTypes + " vertex_indices\nend_header\n";
   for (const double value : {10.0, 0.0, 0.0, 1.0, 0.1, 0.0, 0.0, 1.0, -5e-324}) bytes += bytesOf(value, bigEndian);
   for (int face = 0; face < 2; ++face) {
     bytes += bytesOf(Count{3}, bigEndian);
@@ -118,10 +126,12 @@ std::string binaryPly(const std::string& listTypes, bool bigEndian) {
 
 TEST(Ply, binaryOfBothByteOrdersAndAllIntegerTypes) {
   for (const bool bigEndian : {false, true}) {
-    for (const std::string& bytes :
-         {binaryPly<std::int8_t, std::int8_t>("char int8", bigEndian), binaryPly<std::uint8_t, std::uint16_t>("ushort uchar", bigEndian),
-          binaryPly<std::int16_t, std::int32_t>("int short", bigEndian), binaryPly<std::uint16_t, std::uint8_t>("uint8 uint16", bigEndian),
-          binaryPly<std::int32_t, std::int16_t>("int16 int", bigEndian), binaryPly<std::uint32_t, std::uint32_t>("uint uint", bigEndian)}) {
+    for (const std::string& bytes : {binaryPly<std::int8_t, std::int8_t>("char int8", bigEndian),
+                                     binaryPly<std::uint8_t, std::uint16_t>("ushort uchar", bigEndian),
+                                     binaryPly<std::int16_t, std::int32_t>("int short", bigEndian),
+                                     binaryPly<std::uint16_t, std::uint8_t>("uint8 uint16", bigEndian),
+                                     binaryPly<std::int32_t, std::int16_t>("int16 int", bigEndian),
+                                     binaryPly<std::uint32_t, std::uint32_t>("uint uint", bigEndian)}) {
       const Mesh mesh = meshOf(bytes);
       ASSERT_EQ(mesh.vertices.size(), 3u);
       EXPECT_EQ(mesh.vertices[0], glm::dvec3(10, 0, 0));
@@ -137,8 +147,8 @@ TEST(Ply, bodyMayBeginWithALineEnd) {
   // 10 is \n as an 8-bit coordinate; only the header's own line end may be taken.
   for (const std::string lineEnd : {"\n", "\r\n"}) {
     std::string header;
-    for (const char* line : {"ply", "format binary_little_endian 1.0", "element vertex 1", "property char x", "property char y",
-                             "property char z", "end_header"}) {
+    for (const char* line : {"ply", "format binary_little_endian 1.0", "element vertex 1", "property char x",
+                             "property char y", "property char z", "end_header"}) {
       header += line + lineEnd;
     }
     EXPECT_EQ(meshOf(header + "\n\r\n").vertices.at(0), glm::dvec3(10, 13, 10));
@@ -146,7 +156,8 @@ TEST(Ply, bodyMayBeginWithALineEnd) {
 }
 
 TEST(Ply, floatPropertiesAreSinglePrecision) {
-  EXPECT_TRUE(meshOf("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n")
+  EXPECT_TRUE(meshOf("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float "
+                     "z\nend_header\n1 2 3\n")
                   .singlePrecision);
 }
 
@@ -158,8 +169,9 @@ TEST(Ply, facesMayComeBeforeTheirVertices) {
 }
 
 TEST(Ply, stripsAlternateAndRestart) {
-  const Mesh mesh = meshOf("ply\nformat ascii 1.0\nelement vertex 5\nproperty int x\nproperty int y\nproperty int z\nelement tristrips 1\n"
-                           "property list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 2 0\n8 0 1 2 3 -1 2 3 4\n");
+  const Mesh mesh = meshOf(
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty int x\nproperty int y\nproperty int z\nelement tristrips 1\n"
+      "property list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 2 0\n8 0 1 2 3 -1 2 3 4\n");
   ASSERT_EQ(mesh.triangles.size(), 3u);
   EXPECT_EQ(mesh.triangles[0], glm::uvec3(0, 1, 2));
   EXPECT_EQ(mesh.triangles[1], glm::uvec3(2, 1, 3));
@@ -172,7 +184,8 @@ TEST(Ply, zeroElementsNeedNoProperties) {
 }
 
 TEST(Numbers, extremesThatAreFiniteStay) {
-  const Mesh mesh = meshOf("v 1e308 -1.7976931348623157e308 5e-324\nv 1e-400 -1e-5000 0.0000000000000000000000000000000000000000001e-300\n");
+  const Mesh mesh = meshOf(
+      "v 1e308 -1.7976931348623157e308 5e-324\nv 1e-400 -1e-5000 0.0000000000000000000000000000000000000000001e-300\n");
   EXPECT_EQ(mesh.vertices[0], glm::dvec3(1e308, -1.7976931348623157e308, 5e-324));
   EXPECT_EQ(mesh.vertices[1], glm::dvec3(0, 0, 0));
 }

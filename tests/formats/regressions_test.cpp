@@ -12,7 +12,7 @@
 namespace copeel {
 namespace {
 
-constexpr double kLongestSeconds = 5;   // also under sanitizers
+constexpr double kLongestSeconds = 5;  // also under sanitizers
 
 std::string contentOf(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

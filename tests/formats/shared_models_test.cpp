@@ -17,9 +17,16 @@ struct Known {
   bool closed;
 };
 constexpr Known kKnown[] = {
-    {"as1_assembly", 31358, true}, {"beetle", 38656, false},  {"cow_6k", 5804, true},          {"crank_vhacd_parts", 31566, false},
-    {"dragon_11k", 11102, true},   {"duck_4k", 4212, true},   {"engine_2cylinder_110k", 110336, false},
-    {"menger3", 21598, true},      {"suzanne_1k", 968, false}, {"voxel_church_material", 179168, true},
+    {"as1_assembly", 31358, true},
+    {"beetle", 38656, false},
+    {"cow_6k", 5804, true},
+    {"crank_vhacd_parts", 31566, false},
+    {"dragon_11k", 11102, true},
+    {"duck_4k", 4212, true},
+    {"engine_2cylinder_110k", 110336, false},
+    {"menger3", 21598, true},
+    {"suzanne_1k", 968, false},
+    {"voxel_church_material", 179168, true},
 };
 
 TEST(SharedModels, areReadWhole) {
@@ -37,7 +44,8 @@ double fastestMs(const std::string& path) {
   for (int i = 0; i < 5; ++i) {
     const auto start = std::chrono::steady_clock::now();
     readMesh(path);
-    fastest = std::min(fastest, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    fastest =
+        std::min(fastest, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
   }
   return fastest;
 }
@@ -47,10 +55,11 @@ TEST(SharedModels, loadQuickly) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(NDEBUG)
   GTEST_SKIP() << "times are for release builds";
 #else
-  const std::string dragon = COPEEL_SHARED_MODELS "/dragon_871k.ply", rocker = COPEEL_SHARED_MODELS "/../csg/rocker-arm.off";
+  const std::string dragon = COPEEL_SHARED_MODELS "/dragon_871k.ply",
+                    rocker = COPEEL_SHARED_MODELS "/../csg/rocker-arm.off";
   if (!std::filesystem::exists(dragon) || !std::filesystem::exists(rocker)) GTEST_SKIP() << "no shared models";
-  EXPECT_LT(fastestMs(dragon), 150);   // 871,306 triangles, binary PLY
-  EXPECT_LT(fastestMs(rocker), 20);    // 20,088 triangles, OFF
+  EXPECT_LT(fastestMs(dragon), 150);  // 871,306 triangles, binary PLY
+  EXPECT_LT(fastestMs(rocker), 20);   // 20,088 triangles, OFF
 #endif
 }
 

@@ -14,8 +14,9 @@ namespace {
 // Any finite double, by its bits, so that denormals and the largest ones come as often as others; or small integers, which coincide.
 rc::Gen<double> anyCoordinate(bool single) {
   const auto bits = rc::gen::map(rc::gen::arbitrary<std::uint64_t>(), [single](std::uint64_t b) {
-    const double value = single ? double{std::bit_cast<float>(static_cast<std::uint32_t>(b * 0x9e3779b97f4a7c15u >> 32))}
-                                : std::bit_cast<double>(b * 0x9e3779b97f4a7c15u);
+    const double value = single
+                             ? double{std::bit_cast<float>(static_cast<std::uint32_t>(b * 0x9e3779b97f4a7c15u >> 32))}
+                             : std::bit_cast<double>(b * 0x9e3779b97f4a7c15u);
     return std::isfinite(value) ? value : 1.0;
   });
   return rc::gen::oneOf(bits, rc::gen::map(rc::gen::inRange(-2, 3), [](int i) { return double(i); }));
@@ -137,8 +138,8 @@ RC_GTEST_PROP(SoupProperty, stlKeepsAll, ()) {
 // Cutting a file anywhere, or changing a byte, gives a mesh or one line; nothing else may happen.
 RC_GTEST_PROP(SoupProperty, damagedFilesAreAnsweredInOneLine, (bool single)) {
   const Mesh soup = anySoup(single);
-  std::string bytes = *rc::gen::element(offOf(soup), objOf(soup), plyOf(soup, "ascii"), plyOf(soup, "binary_little_endian"),
-                                        asciiStlOf(soup), binaryStlOf(soup));
+  std::string bytes = *rc::gen::element(offOf(soup), objOf(soup), plyOf(soup, "ascii"),
+                                        plyOf(soup, "binary_little_endian"), asciiStlOf(soup), binaryStlOf(soup));
   const auto place = *rc::gen::inRange<std::size_t>(0, bytes.size());
   if (*rc::gen::arbitrary<bool>()) {
     bytes.resize(place);
