@@ -60,6 +60,23 @@ SceneLeaf randomLeaf(Random& random) {
   return leaf;
 }
 
+// A closed surface of the combinatorics of a double pyramid, its corners anywhere on the grid.
+SceneLeaf randomCrossingLeaf(Random& random) {
+  const int around = random.between(3, 6);
+  std::string points, faces;
+  for (int i = 0; i < around + 2; ++i) {
+    const glm::dvec3 p(random.below(kGrid + 1), random.below(kGrid + 1), random.below(kGrid + 1));
+    points += (i ? ", " : "") + pointText(p);
+  }
+  const int missing = random.below(5) == 0 ? random.below(2 * around) : -1;
+  for (int i = 0; i < 2 * around; ++i) {
+    const int a = i / 2, b = (a + 1) % around;
+    if (i == missing) continue;
+    faces += fmt::format("{}[{}, {}, {}]", faces.empty() ? "" : ", ", i % 2 ? a : b, i % 2 ? b : a, around + i % 2);
+  }
+  return {fmt::format("polyhedron(points = [{}], faces = [{}], convexity = 1);", points, faces), glm::dmat4(1.0), {}};
+}
+
 // A tree over leaves first … last - 1, cut at random places.
 std::string randomTree(Random& random, int first, int last) {
   if (last - first == 1) return fmt::format("@{};", first);
@@ -195,15 +212,23 @@ std::vector<View> RandomScene::views(Placement placement, int width, int height)
   return views;
 }
 
-RandomScene randomScene(std::uint64_t seed, int maxLeafCount) {
+namespace {
+
+RandomScene sceneOf(std::uint64_t seed, int maxLeafCount, SceneLeaf (*leaf)(Random&)) {
   Random random(seed);
   RandomScene scene;
   scene.seed = seed;
   const int count = random.between(2, maxLeafCount);
-  for (int i = 0; i < count; ++i) scene.leaves.push_back(randomLeaf(random));
+  for (int i = 0; i < count; ++i) scene.leaves.push_back(leaf(random));
   scene.tree = randomTree(random, 0, count);
   scene.looks = randomLooks(random);
   return scene;
 }
+
+}  // namespace
+
+RandomScene randomScene(std::uint64_t seed, int maxLeafCount) { return sceneOf(seed, maxLeafCount, randomLeaf); }
+
+RandomScene randomCrossingScene(std::uint64_t seed, int maxLeafCount) { return sceneOf(seed, maxLeafCount, randomCrossingLeaf); }
 
 }  // namespace copeel::validation

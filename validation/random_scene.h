@@ -54,6 +54,10 @@ struct RandomScene {
 
 RandomScene randomScene(std::uint64_t seed, int maxLeafCount = 8);
 
+// The same of leaves that no exact kernel takes: polyhedra with whole corners in any place, which cross themselves, wind twice or backwards, lie flat; one
+// in five lacks a face.
+RandomScene randomCrossingScene(std::uint64_t seed, int maxLeafCount = 5);
+
 // `multmatrix([[…]]) ` with all digits.
 std::string matrixText(const glm::dmat4& matrix);
 

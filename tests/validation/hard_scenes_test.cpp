@@ -154,7 +154,7 @@ TEST(HardScenes, Case10_depth_from_a_thousandth_to_a_million) {
 
 TEST(HardScenes, Case10_images_of_one_pixel_and_of_extreme_shape) {
   const csg::Model model = modelOf(coplanarTurnedLeafByLeaf().text);
-  for (const auto& [width, height] : {std::pair{1, 1}, {1, 2048}, {4096, 4}, {16384, 1}, {17, 3}})
+  for (const auto& [width, height] : {std::pair{1, 1}, {1, 16384}, {16384, 16}, {17, 3}})
     for (const bool perspective : {true, false}) expectRight(model, sized({{60, -80, 100}, {0, 0, 0}, {0, 0, 1}, perspective}, width, height));
 }
 
