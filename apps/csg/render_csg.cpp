@@ -82,6 +82,7 @@ struct Renderer::State {
   void prepare();
   std::vector<std::uint8_t> closedObjects(const std::vector<std::uint8_t>& reachesEye);
   void drawPass(const View& view, PixelSink& sink);
+  void drawSamples(const View& view, Image<Rgb8>& color);
   void drawTiles(const cpu::Frame& frame, PixelSink& sink);
 };
 
@@ -156,10 +157,28 @@ void Renderer::State::drawPass(const View& view, PixelSink& sink) {
 
 namespace {
 
+// What a pixel shows of the solid: two pixels on one face show the same.
+struct Shown {
+  std::uint32_t leaf = ~std::uint32_t{0}, planeClass = ~std::uint32_t{0};
+  friend bool operator==(const Shown&, const Shown&) = default;
+};
+
+// openscad's edges are black lines of one pixel: here, where a pixel shows another face than the one right of it or below.
+void drawEdges(const Image<Shown>& shown, Image<Rgb8>& color) {
+  for (int y = 0; y < color.height; ++y) {
+    for (int x = 0; x < color.width; ++x) {
+      const bool right = x + 1 < color.width && shown.at(x, y) != shown.at(x + 1, y);
+      const bool below = y + 1 < color.height && shown.at(x, y) != shown.at(x, y + 1);
+      if (right || below) color.at(x, y) = Rgb8{};
+    }
+  }
+}
+
 // Writes surfaces into the frame's images; colours are summed over samples.
 class FrameSink : public PixelSink {
  public:
-  FrameSink(Frame& frame, const Look& look, Image<glm::vec3>* sum) : frame_(frame), look_(look), sum_(sum) {}
+  FrameSink(Frame& frame, const Look& look, Image<glm::vec3>* sum, Image<Shown>* shown)
+      : frame_(frame), look_(look), sum_(sum), shown_(shown) {}
   // Depth needs the view's planes.
   void setView(const Scene& scene, const PlaneClasses& planes, const View& view) {
     view_ = &view;
@@ -169,9 +188,10 @@ class FrameSink : public PixelSink {
     if (surfaces.empty()) return;   // the images start as background
     if (sum_) sum_->at(x, y) += glm::vec3(look_.blend(surfaces) - look_.blend({}));
     else if (!frame_.color.pixels.empty()) frame_.color.at(x, y) = toRgb8(look_.blend(surfaces));
-    if (frame_.depth.pixels.empty() && frame_.ids.pixels.empty()) return;
+    if (frame_.depth.pixels.empty() && frame_.ids.pixels.empty() && !shown_) return;
     const auto solid = std::find_if(surfaces.begin(), surfaces.end(), [](const Surface& s) { return s.part == 0; });
     if (solid == surfaces.end()) return;
+    if (shown_) shown_->at(x, y) = {solid->leaf, solid->planeClass};
     if (!frame_.ids.pixels.empty()) frame_.ids.at(x, y) = static_cast<std::uint16_t>(std::min<std::uint32_t>(solid->leaf + 1, 65535));
     if (!frame_.depth.pixels.empty()) frame_.depth.at(x, y) = depthAt(solid->planeClass, x, y);
   }
@@ -191,11 +211,28 @@ class FrameSink : public PixelSink {
   Frame& frame_;
   const Look& look_;
   Image<glm::vec3>* sum_;
+  Image<Shown>* shown_;
   const View* view_ = nullptr;
   std::vector<DepthPlane> depths_;
 };
 
 }  // namespace
+
+// Colours are the mean of the samples, summed as differences from the background so that pixels nothing was drawn to need no visit.
+void Renderer::State::drawSamples(const View& view, Image<Rgb8>& color) {
+  Image<glm::vec3> sum(view.width, view.height, glm::vec3(0));
+  for (int i = 0; i < options.samples; ++i) {
+    View shifted = view;
+    shifted.offset = sampleOffset(i, options.samples);
+    Frame none;
+    FrameSink sink(none, *look, &sum, nullptr);
+    drawPass(shifted, sink);
+  }
+  const std::array<double, 3>& b = options.scheme.background;
+  for (std::size_t i = 0; i < sum.pixels.size(); ++i) {
+    color.pixels[i] = FrameSink::toRgb8(glm::dvec3(b[0], b[1], b[2]) + glm::dvec3(sum.pixels[i]) / double(options.samples));
+  }
+}
 
 Renderer::Renderer(const Model& model, const RenderOptions& options) : state_(std::make_unique<State>(model, options)) {
   if (!findMethod(options.method)) failUsage("--method {}: there is no such method", options.method);
@@ -216,32 +253,18 @@ Frame Renderer::draw(const View& view) {
   frame.color = Image<Rgb8>(view.width, view.height, FrameSink::toRgb8({b[0], b[1], b[2]}));
   if (options.wantDepth) frame.depth = Image<float>(view.width, view.height, std::numeric_limits<float>::infinity());
   if (options.wantIds) frame.ids = Image<std::uint16_t>(view.width, view.height);
+  Image<Shown> shown;
+  if (options.edges) shown = Image<Shown>(view.width, view.height);
   state.arena->execute([&] {
-    if (options.samples <= 1) {
-      FrameSink sink(frame, *state.look, nullptr);
-      sink.setView(state.scene, state.planes, view);
-      state.drawPass(view, sink);
-      return;
-    }
-    // Depth and ids are those of the pixel's centre; colours are the mean of the samples, summed as differences from the background so that
-    // pixels nothing was drawn to need no visit.
-    if (options.wantDepth || options.wantIds) {
-      FrameSink sink(frame, *state.look, nullptr);
+    // Depth, ids and edges are those of the pixel's centre.
+    if (options.samples <= 1 || options.wantDepth || options.wantIds || options.edges) {
+      FrameSink sink(frame, *state.look, nullptr, options.edges ? &shown : nullptr);
       sink.setView(state.scene, state.planes, view);
       state.drawPass(view, sink);
     }
-    Image<glm::vec3> sum(view.width, view.height, glm::vec3(0));
-    for (int i = 0; i < options.samples; ++i) {
-      View shifted = view;
-      shifted.offset = sampleOffset(i, options.samples);
-      Frame none;
-      FrameSink sink(none, *state.look, &sum);
-      state.drawPass(shifted, sink);
-    }
-    for (std::size_t i = 0; i < sum.pixels.size(); ++i) {
-      frame.color.pixels[i] = FrameSink::toRgb8(glm::dvec3(b[0], b[1], b[2]) + glm::dvec3(sum.pixels[i]) / double(options.samples));
-    }
+    if (options.samples > 1) state.drawSamples(view, frame.color);
   });
+  if (options.edges) drawEdges(shown, frame.color);
   state.stats.width = view.width;
   state.stats.height = view.height;
   state.stats.passes = std::max(options.samples, 1);

@@ -37,7 +37,7 @@ struct RenderOptions {
   InsideRule inside = InsideRule::NonZero;
   ColorScheme scheme;
   bool lit = true;
-  bool edges = false;              // draws the edges of the faces
+  bool edges = false;              // a black line of one pixel where one visible face ends and another begins
   std::vector<Section> sections;
   double coplanarTolerance = 0;    // model units; 0: from the scene (see core/coplanarity/plane_classes.h)
   int threads = 0;                 // 0: all cores
