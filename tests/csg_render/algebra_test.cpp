@@ -9,7 +9,7 @@
 namespace copeel::test {
 namespace {
 
-constexpr int kSize = 40;   // pixels
+constexpr int kSize = 40, kSmall = 24;   // pixels
 
 void expectSameDepths(const Tree& a, const Tree& b, const View& view) {
   RC_ASSERT(differentPixels(draw(modelOf(a), view).frame, draw(modelOf(b), view).frame, false) == 0);
@@ -62,12 +62,12 @@ RC_GTEST_PROP(Algebra, theOrderOfTrianglesAndOfTheirCornersDoesNotChangeAPixel, 
 
 RC_GTEST_PROP(Algebra, aMotionOfSceneAndCameraChangesNoOffEdgePixel, ()) {
   const csg::Model model = modelOf(randomTree(3));
-  const View view = randomView(kSize, kSize);
+  const View view = randomView(kSmall, kSmall);
   const glm::dmat4 m = translation({100, -50, 7}) * rotation({10, 20, 30});
   const csg::Frame one = draw(model, view).frame, two = draw(placed(model, m), moved(view, m)).frame;
   const Oracle oracle(model, view);
-  for (int y = 0; y < kSize; ++y) {
-    for (int x = 0; x < kSize; ++x) {
+  for (int y = 0; y < kSmall; ++y) {
+    for (int x = 0; x < kSmall; ++x) {
       if (!oracle.pixel(x, y).edge) RC_ASSERT(one.ids.at(x, y) == two.ids.at(x, y));
     }
   }
