@@ -2,6 +2,7 @@
 #include "apps/csg/csg_fold.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace copeel::csg {
 
@@ -17,6 +18,51 @@ bool CsgFold::beginTile(cpu::Tile& tile) {
   }
   setInitialState();
   return true;
+}
+
+// Bottom up, where in depth a gate can be true at all: a union where any input can, an intersection where all can. Top down, where that
+// matters. A leaf that can only be inside elsewhere is dropped: it is outside wherever anyone looks.
+double CsgFold::narrowTile(cpu::Tile& tile) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  if (eye_.any) return kFar;   // some leaf is inside from the start
+  const auto nodes = pruned_.nodes();
+  const auto anyInput = [&](std::uint32_t n) { return nodes[n].threshold - nodes[n].initial == 1; };
+  windows_.clear();
+  for (std::uint32_t n = 0; n < nodes.size(); ++n) windows_.push_back(anyInput(n) ? Window{kFar, -kFar} : Window{-kFar, kFar});
+  const auto feed = [&](std::uint32_t n, const Window& input) {
+    Window& window = windows_[n];
+    window = anyInput(n) ? Window{std::min(window.least, input.least), std::max(window.most, input.most)}
+                         : Window{std::max(window.least, input.least), std::min(window.most, input.most)};
+  };
+  const auto windowOf = [&](std::uint32_t leaf) {
+    return Window{tile.objects[leaf].least, closed_[leaves_[leaf]] ? tile.objects[leaf].most : kFar};
+  };
+  for (std::uint32_t leaf = 0; leaf < tile.objects.size(); ++leaf) {
+    for (const PrunedForest::Use& use : pruned_.uses(leaf)) {
+      if (!use.negated) feed(use.node, windowOf(leaf));
+    }
+  }
+  for (std::size_t n = nodes.size(); n-- > 0;) {
+    if (nodes[n].parent != kNone && !nodes[n].negated) feed(nodes[n].parent, windows_[n]);
+  }
+
+  double farthest = -kFar;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    Window& window = windows_[n];
+    if (nodes[n].parent == kNone) farthest = std::max(farthest, window.empty() ? -kFar : window.most);
+    else window = {std::max(window.least, windows_[nodes[n].parent].least), std::min(window.most, windows_[nodes[n].parent].most)};
+  }
+  for (std::uint32_t leaf = 0; leaf < tile.objects.size(); ++leaf) {
+    if (!tile.objects[leaf].keep) continue;
+    const Window own = windowOf(leaf);
+    bool matters = false;
+    for (const PrunedForest::Use& use : pruned_.uses(leaf)) {
+      const Window& window = windows_[use.node];
+      matters |= !window.empty() && own.least <= window.most && window.least <= own.most;
+    }
+    tile.objects[leaf].keep = matters;
+  }
+  return farthest;
 }
 
 void CsgFold::listLeaves(const cpu::Tile& tile) {

@@ -35,13 +35,15 @@ class PixelSink {
 
 class CsgFold {
  public:
+  // `closed`: per leaf, whether its mesh is known to be closed: behind its last crossing in a tile it is left for good.
   // `alpha`: opacity of a face of the leaf shown for the part; 1 ends the pixel, 0 is passed over.
   using Alpha = double (*)(const void* context, std::uint32_t leaf, std::uint32_t part);
 
-  CsgFold(const GateForest& forest, const EyeWinding& eye, InsideRule rule, Alpha alpha, const void* context, PixelSink& sink)
-      : forest_(forest), eye_(eye), rule_(rule), alpha_(alpha), context_(context), sink_(sink) {}
+  CsgFold(const GateForest& forest, const EyeWinding& eye, const std::vector<std::uint8_t>& closed, InsideRule rule, Alpha alpha, const void* context, PixelSink& sink)
+      : forest_(forest), eye_(eye), closed_(closed), rule_(rule), alpha_(alpha), context_(context), sink_(sink) {}
 
   bool beginTile(cpu::Tile& tile);
+  double narrowTile(cpu::Tile& tile);
   bool needsWholeStack() const { return tileNeedsStack_; }
   double leastFragments() const { return pruned_.leastEntries(); }
   void beginPixel(const PixelStack& stack);
@@ -85,6 +87,7 @@ class CsgFold {
 
   const GateForest& forest_;
   const EyeWinding& eye_;
+  const std::vector<std::uint8_t>& closed_;    // per leaf: known to be
   InsideRule rule_;
   Alpha alpha_;
   const void* context_;
@@ -95,6 +98,11 @@ class CsgFold {
   const cpu::TileSlot* slots_ = nullptr;
   std::vector<std::uint32_t> leaves_;
   std::vector<std::uint32_t> topOfOutput_;     // gate, or kNone
+  struct Window {
+    double least, most;                        // order values
+    bool empty() const { return least > most; }
+  };
+  std::vector<Window> windows_;                // per gate: where it can be true, then where that matters
   std::vector<Gate> initialGates_;
   std::vector<LeafState> initialStates_;
   bool tileNeedsStack_ = false;

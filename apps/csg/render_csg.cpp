@@ -80,6 +80,8 @@ struct Renderer::State {
 
   State(const Model& m, const RenderOptions& o) : model(m), options(o) {}
   void prepare();
+  std::vector<std::uint8_t> knownClosed;                // per object, found out for small meshes
+  void findSmallClosedMeshes();
   std::vector<std::uint8_t> closedObjects(const std::vector<std::uint8_t>& reachesEye);
   void drawPass(const View& view, PixelSink& sink);
   void drawSamples(const View& view, Image<Rgb8>& color);
@@ -102,11 +104,28 @@ void Renderer::State::prepare() {
   for (std::size_t i = 0; i < model.leaves.size(); ++i) translucent[i] = model.leaves[i].color && model.leaves[i].color->a < 1;
   forest = buildGates(model, sectionLeaves, translucent, static_cast<std::uint32_t>(scene.objects().size()));
   look = std::make_unique<Look>(model, forest, options);
+  findSmallClosedMeshes();
   stats.method = options.method;
   stats.triangles = scene.primitiveCount();
   stats.leaves = model.leaves.size();
   stats.planeClasses = planes.classes().size();
   stats.prepareMs = nowMs() - start;
+}
+
+// Knowing that a leaf is closed helps to drop it where it does not matter; it is worth a look at a few thousand triangles, not at millions.
+void Renderer::State::findSmallClosedMeshes() {
+  constexpr std::size_t kTriangles = 20000;
+  std::size_t looked = 0;
+  knownClosed.assign(scene.objects().size(), 0);
+  for (std::size_t i = 0; i < knownClosed.size(); ++i) {
+    const Mesh* mesh = scene.objects()[i].mesh.get();
+    auto known = closedMeshes.find(mesh);
+    if (known == closedMeshes.end() && looked + mesh->triangles.size() <= kTriangles) {
+      looked += mesh->triangles.size();
+      known = closedMeshes.emplace(mesh, statusOf(*mesh).closed).first;
+    }
+    knownClosed[i] = known != closedMeshes.end() && known->second;
+  }
 }
 
 std::vector<std::uint8_t> Renderer::State::closedObjects(const std::vector<std::uint8_t>& reachesEye) {
@@ -133,7 +152,7 @@ void Renderer::State::drawTiles(const cpu::Frame& frame, PixelSink& sink) {
   cpu::TileOptions tileOptions;
   tileOptions.decideAllExactly = options.decideAllExactly;
   const cpu::TileCounts counts = cpu::renderTiles(
-      frame, tileOptions, [&] { return CsgFold(forest, eye, options.inside, alpha, look.get(), sink); });
+      frame, tileOptions, [&] { return CsgFold(forest, eye, knownClosed, options.inside, alpha, look.get(), sink); });
   stats.fragments = stats.fragmentsCaptured = counts.fragments;
   stats.depthComplexityMax = counts.depthComplexityMax;
   stats.coveredPixels = counts.coveredPixels;

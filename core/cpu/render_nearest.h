@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include <tbb/enumerable_thread_specific.h>
@@ -25,7 +26,8 @@ void renderNearest(const Frame& frame, Visit visit) {
     for (int i = range.begin(); i != range.end(); ++i) {
       Tile& tile = local.tile;
       tile.begin(frame, i);
-      tile.setUp(frame, false);
+      tile.setUp(frame);
+      tile.finish(frame, std::numeric_limits<double>::infinity(), false);
       std::fill(local.nearest.begin(), local.nearest.end(), kEmptyKey);
       collectNearest(tile.setups, tile.format, BlockRect{}, local.nearest.data());
       for (int y = 0; y < tile.height; ++y) {

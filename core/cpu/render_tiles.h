@@ -42,7 +42,10 @@ class TileRenderer {
   void draw(int index) {
     tile_.begin(frame_, index);
     if (!fold_.beginTile(tile_)) return;
-    tile_.setUp(frame_, options_.decideAllExactly);
+    tile_.setUp(frame_);
+    const double farthest = fold_.narrowTile(tile_);
+    tile_.finish(frame_, farthest, options_.decideAllExactly);
+    if (tile_.setups.empty()) return;
     std::fill(std::begin(done_), std::end(done_), 0);
     finished_ = 0;
     drawRect(BlockRect{0, 0, (tile_.width + kBlockSize - 1) / kBlockSize, (tile_.height + kBlockSize - 1) / kBlockSize});

@@ -68,11 +68,12 @@ void Tile::begin(const Frame& frame, int index) {
   }
 }
 
-void Tile::setUp(const Frame& frame, bool decideAllExactly) {
-  least_ = std::numeric_limits<double>::infinity();
-  most_ = -least_;
+void Tile::setUp(const Frame& frame) {
+  ranges_.clear();
   for (std::uint32_t i = 0; i < objects.size(); ++i) {
     if (!objects[i].keep) continue;
+    objects[i].least = std::numeric_limits<double>::infinity();
+    objects[i].most = -objects[i].least;
     const std::size_t first = slots.size();
     for (std::uint32_t k = objects[i].firstReference; k < objects[i].lastReference; ++k) {
       addTriangle(frame, objects[i], i, references_[k]);
@@ -81,10 +82,21 @@ void Tile::setUp(const Frame& frame, bool decideAllExactly) {
       for (std::size_t s = first; s < slots.size(); ++s) slots[s].side = -slots[s].side;
     }
   }
+}
+
+void Tile::finish(const Frame& frame, double farthest, bool decideAllExactly) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < setups.size(); ++i) {
+    if (!objects[slots[i].object].keep || ranges_[i].least > farthest) continue;
+    setups[kept] = setups[i];
+    ranges_[kept++] = ranges_[i];
+  }
+  setups.resize(kept);
+  ranges_.resize(kept);
   scaleDepths(frame, decideAllExactly);
 }
 
-void Tile::addTriangle(const Frame& frame, const TileObject& object, std::uint32_t objectIndex, std::uint32_t reference) {
+void Tile::addTriangle(const Frame& frame, TileObject& object, std::uint32_t objectIndex, std::uint32_t reference) {
   auto [p, q, r] = cornersOf(frame, object.object, reference);
   const std::int64_t area = std::int64_t{q.x - p.x} * (r.y - p.y) - std::int64_t{q.y - p.y} * (r.x - p.x);
   if (area < 0) std::swap(q, r);
@@ -134,8 +146,9 @@ void Tile::addTriangle(const Frame& frame, const TileObject& object, std::uint32
   t.hi = plane.hi;
   const double small = t.dc + std::min(t.da * left, t.da * right) + std::min(t.db * top, t.db * bottom);
   const double large = t.dc + std::max(t.da * left, t.da * right) + std::max(t.db * top, t.db * bottom);
-  least_ = std::min(least_, std::clamp(small, t.lo, t.hi));
-  most_ = std::max(most_, std::clamp(large, t.lo, t.hi));
+  ranges_.push_back({std::clamp(small, t.lo, t.hi), std::clamp(large, t.lo, t.hi)});
+  object.least = std::min(object.least, ranges_.back().least - plane.error);
+  object.most = std::max(object.most, ranges_.back().most + plane.error);
   setups.push_back(t);
   slots.push_back({primitive, planeClass, objectIndex, area < 0 ? 1 : -1, 0});
 }
@@ -145,7 +158,9 @@ void Tile::scaleDepths(const Frame& frame, bool decideAllExactly) {
   format.depthBits = kKeyBits - slotBits;
   // A margin of 2^-8 of the range at both ends takes the rounding.
   const double units = std::ldexp(1.0, format.depthBits), margin = units / 256;
-  const double range = most_ - least_;
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const Range& range : ranges_) least = std::min(least, range.least), most = std::max(most, range.most);
+  const double range = most - least;
   // A range so small that rounding would fill thousands of key units gains nothing from a larger scale.
   double leastError = std::numeric_limits<double>::infinity();
   for (const TileSlot& slot : slots) leastError = std::min(leastError, double(frame.depths[slot.planeClass].error));
@@ -156,12 +171,13 @@ void Tile::scaleDepths(const Frame& frame, bool decideAllExactly) {
     TriangleSetup& t = setups[i];
     t.da *= scale;
     t.db *= scale;
-    t.dc = (t.dc - least_) * scale + shift;
-    t.lo = std::max((t.lo - least_) * scale, -margin) + shift;
-    t.hi = std::min((t.hi - least_) * scale, units - 2 * margin) + shift;
-    const double error = double(frame.depths[slots[i].planeClass].error) * scale * 1.25 + kKeyRounding;
+    t.dc = (t.dc - least) * scale + shift;
+    t.lo = std::max((t.lo - least) * scale, -margin) + shift;
+    t.hi = std::min((t.hi - least) * scale, units - 2 * margin) + shift;
+    TileSlot& slot = slots[t.slot];
+    const double error = double(frame.depths[slot.planeClass].error) * scale * 1.25 + kKeyRounding;
     const double bound = decideAllExactly ? kMostUncertainty : std::min(std::ceil(error), kMostUncertainty);
-    slots[i].uncertainty = static_cast<std::uint64_t>(bound);
+    slot.uncertainty = static_cast<std::uint64_t>(bound);
   }
   // One bound for all but the coarse: then a gap between neighbours in sorted order parts everything before from everything after.
   uncertainty = 0;
@@ -192,11 +208,12 @@ void Tile::orderByDepth() {
   };
   std::vector<Order> order;
   order.reserve(setups.size());
-  for (const TriangleSetup& t : setups) {
+  for (std::uint32_t i = 0; i < setups.size(); ++i) {
+    const TriangleSetup& t = setups[i];
     const double least = t.dc + std::min(t.da * t.x0, t.da * t.x1) + std::min(t.db * t.y0, t.db * t.y1);
     const auto depth = static_cast<std::uint64_t>(std::clamp(least, t.lo, t.hi) - kBias);
     const std::uint64_t reach = slots[t.slot].uncertainty + 2;
-    order.push_back({depth > reach ? depth - reach : 0, t.slot});
+    order.push_back({depth > reach ? depth - reach : 0, i});
   }
   std::sort(order.begin(), order.end(), [](const Order& a, const Order& b) {
     return a.depth != b.depth ? a.depth < b.depth : a.setup < b.setup;

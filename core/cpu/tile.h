@@ -23,14 +23,17 @@ struct TileObject {
   std::uint32_t object;                     // of the scene
   std::uint32_t firstReference, lastReference;
   bool keep = true;                         // cleared by a fold that has no use for the object in this tile
+  double least = 0, most = 0;               // after setUp: bounds of its order values in the tile (depth_planes.h)
 };
 
 class Tile {
  public:
   // Finds the objects that touch a tile. O(references).
   void begin(const Frame& frame, int index);
-  // Sets the triangles of the kept objects up.
-  void setUp(const Frame& frame, bool decideAllExactly);
+  // Sets the triangles of the kept objects up, and finds their depths.
+  void setUp(const Frame& frame);
+  // Drops the triangles of objects that are no longer kept and those wholly beyond `farthest`; scales depths to keys.
+  void finish(const Frame& frame, double farthest, bool decideAllExactly);
   // Orders the setups by nearest depth, so that they can be met front to back.
   void orderByDepth();
 
@@ -49,11 +52,14 @@ class Tile {
   static constexpr std::uint64_t kCoarse = 4096;   // key units; below, all slots of a tile carry one common bound
 
  private:
-  void addTriangle(const Frame& frame, const TileObject& object, std::uint32_t objectIndex, std::uint32_t reference);
+  void addTriangle(const Frame& frame, TileObject& object, std::uint32_t objectIndex, std::uint32_t reference);
   void scaleDepths(const Frame& frame, bool decideAllExactly);
 
   std::span<const std::uint32_t> references_;
-  double least_ = 0, most_ = 0;             // order values in the tile
+  struct Range {
+    double least, most;
+  };
+  std::vector<Range> ranges_;               // order values of each setup in the tile
 };
 
 }  // namespace copeel::cpu

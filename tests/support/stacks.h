@@ -1,6 +1,7 @@
 // The whole pixel stacks of a scene, as the tile method delivers them: groups of (primitive, side) front to back.
 #pragma once
 
+#include <limits>
 #include <algorithm>
 #include <mutex>
 #include <vector>
@@ -41,6 +42,7 @@ class StackFold {
  public:
   StackFold(Stacks& stacks, Wanted wanted) : stacks_(stacks), wanted_(wanted) {}
   bool beginTile(cpu::Tile&) { return true; }
+  double narrowTile(cpu::Tile&) const { return std::numeric_limits<double>::infinity(); }
   bool needsWholeStack() const { return false; }
   double leastFragments() const { return 1; }
   void beginPixel(const PixelStack& stack) {
