@@ -190,20 +190,19 @@ std::vector<Crossing> RayCaster::cross(const Ray& ray) const {
   return out;
 }
 
+// Whether all corners of one triangle lie within a distance of another's plane. Far above the rounding of doubles, as a declared tolerance is.
+bool RayCaster::liesInPlaneOf(const Triangle& t, const Triangle& plane, double tolerance) const {
+  const auto corner = [&](const Triangle& of, int i) { return meshes_[of.mesh].vertices[of.corners[i]]; };
+  const glm::dvec3 a = corner(plane, 0), n = glm::cross(corner(plane, 1) - a, corner(plane, 2) - a);
+  for (int i = 0; i < 3; ++i)
+    if (!(std::abs(glm::dot(n, corner(t, i) - a)) <= tolerance * glm::length(n))) return false;
+  return true;
+}
+
 bool RayCaster::sameDepth(const Ray& ray, const Crossing& near, const Crossing& far, double tolerance) const {
   if (compareDepth(ray, near, far) == 0) return true;
-  if (tolerance <= 0) return false;
-  // A gap g along the ray is g·|N·D|/|N| along the normal; compare squares, which are rational.
-  const auto within = [&](std::uint32_t triangle) {
-    const Sight<Bounded>& s = triangles_[triangle].sight;
-    const Bounded travel = (far.depth - near.depth) * s.depthBottom.at(ray.u, ray.v);
-    const Bounded room = Bounded(tolerance) * Bounded(tolerance) * s.normalSquared - travel * travel;
-    if (const auto sign = signOf(room)) return *sign >= 0;
-    const Sight<mpq_class>& e = exactSight(triangles_[triangle]);
-    const mpq_class exactTravel = (exactDepth(ray, far) - exactDepth(ray, near)) * e.depthBottom.at(mpq_class(ray.u), mpq_class(ray.v));
-    return mpq_class(tolerance) * mpq_class(tolerance) * e.normalSquared >= exactTravel * exactTravel;
-  };
-  return within(near.triangle) && within(far.triangle);
+  const Triangle &a = triangles_[near.triangle], &b = triangles_[far.triangle];
+  return tolerance > 0 && (liesInPlaneOf(a, b, tolerance) || liesInPlaneOf(b, a, tolerance));
 }
 
 double RayCaster::cosine(const Ray& ray, std::uint32_t triangle) const {

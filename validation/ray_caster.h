@@ -46,8 +46,8 @@ class RayCaster {
   // All crossings in front of the eye (perspective) or on the whole line (orthographic), nearest first; equal depths in order of triangle.
   std::vector<Crossing> cross(const Ray& ray) const;
 
-  // Whether two crossings of one ray count as one depth: exactly equal, or both planes pass within `tolerance` (model units, measured along
-  // their normals) of the other crossing's point.
+  // Whether two crossings of one ray count as one depth: exactly equal, or one of the triangles lies within `tolerance` (model units) of the
+  // other's plane.
   bool sameDepth(const Ray& ray, const Crossing& near, const Crossing& far, double tolerance) const;
 
   // The cosine between a ray and a triangle's normal, and the depth at which the ray meets the triangle's plane. In plain double.
@@ -73,6 +73,7 @@ class RayCaster {
   std::array<Vec<mpq_class>, 3> exactCorners(const Triangle& triangle) const;
   const Sight<mpq_class>& exactSight(const Triangle& triangle) const;
   std::uint32_t exactPlane(const Triangle& triangle) const;
+  bool liesInPlaneOf(const Triangle& t, const Triangle& plane, double tolerance) const;
   std::optional<Crossing> crossTriangle(const Ray& ray, std::uint32_t index) const;
   std::optional<int> side(const Ray& ray, const Triangle& triangle, int edge) const;
   const mpq_class& exactDepth(const Ray& ray, const Crossing& crossing) const;

@@ -9,8 +9,11 @@
 #include "validation/judge.h"
 
 #ifndef COPEEL_IMAGE_SCALE
-#define COPEEL_IMAGE_SCALE 1   // the slow suite asks for images five times as wide and high
+#define COPEEL_IMAGE_SCALE 1      // the slow suite asks for images five times as wide and high, under a name of its own
+#define COPEEL_SUITE HardCases
 #endif
+#define COPEEL_TEST_OF(suite, name) TEST(suite, name)
+#define HARD_CASE(name) COPEEL_TEST_OF(COPEEL_SUITE, name)
 
 namespace copeel::validation {
 namespace {
@@ -43,23 +46,23 @@ void expectRight(const HardCase& hard) {
   }
 }
 
-TEST(HardCases, Coplanar_axis_aligned) { expectRight(coplanarDifference()); }
-TEST(HardCases, Coplanar_scaled_down) { expectRight(coplanarDifference(1e-3)); }
-TEST(HardCases, Coplanar_scaled_up) { expectRight(coplanarDifference(1e3)); }
-TEST(HardCases, Coplanar_turned_as_a_whole) { expectRight(coplanarTurnedWhole()); }
-TEST(HardCases, Coplanar_each_leaf_turned) { expectRight(coplanarTurnedLeafByLeaf()); }
-TEST(HardCases, Cutter_a_millionth_too_long) { expectRight(cutterTooLong()); }
-TEST(HardCases, Film_of_a_millionth_stays) { expectRight(filmThatStays()); }
-TEST(HardCases, Moved_by_a_million) { expectRight(movedFar()); }
-TEST(HardCases, Self_intersecting_polyhedron) { expectRight(selfIntersecting()); }
-TEST(HardCases, Inside_out_polyhedron) { expectRight(insideOut()); }
-TEST(HardCases, Star_prism_with_winding_number_two) { expectRight(starPrism()); }
-TEST(HardCases, One_face_missing) { expectRight(faceMissing()); }
-TEST(HardCases, Torus_with_convexity_one) { expectRight(torus()); }
-TEST(HardCases, Eye_inside_the_cutter) { expectRight(eyeInsideCutter()); }
+HARD_CASE(Coplanar_axis_aligned) { expectRight(coplanarDifference()); }
+HARD_CASE(Coplanar_scaled_down) { expectRight(coplanarDifference(1e-3)); }
+HARD_CASE(Coplanar_scaled_up) { expectRight(coplanarDifference(1e3)); }
+HARD_CASE(Coplanar_turned_as_a_whole) { expectRight(coplanarTurnedWhole()); }
+HARD_CASE(Coplanar_each_leaf_turned) { expectRight(coplanarTurnedLeafByLeaf()); }
+HARD_CASE(Cutter_a_millionth_too_long) { expectRight(cutterTooLong()); }
+HARD_CASE(Film_of_a_millionth_stays) { expectRight(filmThatStays()); }
+HARD_CASE(Moved_by_a_million) { expectRight(movedFar()); }
+HARD_CASE(Self_intersecting_polyhedron) { expectRight(selfIntersecting()); }
+HARD_CASE(Inside_out_polyhedron) { expectRight(insideOut()); }
+HARD_CASE(Star_prism_with_winding_number_two) { expectRight(starPrism()); }
+HARD_CASE(One_face_missing) { expectRight(faceMissing()); }
+HARD_CASE(Torus_with_convexity_one) { expectRight(torus()); }
+HARD_CASE(Eye_inside_the_cutter) { expectRight(eyeInsideCutter()); }
 
 // Two colours share a face: the later operand's face shows, from both sides of a section and under a third solid that cuts both.
-TEST(HardCases, Coloured_coincident_faces_show_the_later_operand) {
+HARD_CASE(Coloured_coincident_faces_show_the_later_operand) {
   const std::string red = "color([1, 0, 0, 1]) {" + box({-20, -20, 0}, {20, 20, 10}) + "}\n";
   const std::string blue = "color([0, 0, 1, 1]) {" + box({-10, -20, 0}, {30, 20, 10}) + "}\n";
   for (const bool redFirst : {true, false}) {
@@ -80,7 +83,7 @@ TEST(HardCases, Coloured_coincident_faces_show_the_later_operand) {
 }
 
 // A film between the cutter and the face is there exactly when it is thicker than the declared tolerance: 1e-10 of the scene's diagonal, or 16 ulp.
-TEST(HardCases, Films_flip_at_the_declared_tolerance_only) {
+HARD_CASE(Films_flip_at_the_declared_tolerance_only) {
   for (const double tilt : {0.0, 7.0}) {
     const double diagonal = boundsOf(modelOf(film(1, tilt).text)).diagonal();
     for (int power = 1; power <= 15; ++power) {

@@ -146,10 +146,15 @@ TEST(HardScenes, Case9_pencil_of_planes_and_saw_teeth) {
 }
 
 TEST(HardScenes, Case10_depth_from_a_thousandth_to_a_million) {
-  // A speck just before the eye, a part, and a wall a million away.
-  const std::string text = join("union", {box({1e-4, 1e-4, -1e-3}, {2e-4, 2e-4, -0.9e-3}), moved(coplanarDifference().text, translation({0, 0, -200})),
-                                          box({-1e6, -1e6, -1e6 - 10}, {1e6, 0, -1e6})});
-  for (const bool perspective : {true, false}) EXPECT_GT(expectRight(text, {{{0, 0, 0}, {0, 0, -200}, {0, 1, 0}, perspective}}), 1000u);
+  // A speck just before the eye, a part, and a wall a million away. The declared tolerance of so large a scene is 3e-4: the speck is ten times that, or
+  // smaller when the user declares a smaller one.
+  for (const auto& [size, tolerance] : {std::pair{4e-3, 0.0}, {1e-4, 1e-8}}) {
+    const std::string speck = box(glm::dvec3(1, 1, -10) * size, glm::dvec3(2, 2, -9) * size);
+    const csg::Model model = modelOf(join("union", {speck, moved(coplanarDifference().text, translation({0, 0, -200})), box({-1e6, -1e6, -1e6 - 10}, {1e6, 0, -1e6})}));
+    csg::RenderOptions options;
+    options.coplanarTolerance = tolerance;
+    for (const bool perspective : {true, false}) EXPECT_GT(expectRight(model, sized({{0, 0, 0}, {0, 0, -200}, {0, 1, 0}, perspective}, 128, 96), options), 1000u);
+  }
 }
 
 TEST(HardScenes, Case10_images_of_one_pixel_and_of_extreme_shape) {

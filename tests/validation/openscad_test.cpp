@@ -18,6 +18,8 @@ constexpr int kWidth = 400, kHeight = 300;       // pixels
 // openscad's vertices pass through float32 matrices before they are snapped to 1/256 pixel: two steps.
 constexpr double kEdgePx = 2 * kSubPixelStep;
 constexpr int kColorRounding = 2;                // of 255
+// Where leaves intersect, openscad's crease is where a 24-bit depth buffer has it: a few pixels off the exact curve.
+constexpr int kCreasePixels = 10;
 
 class Openscad : public testing::Test {
  protected:
@@ -94,7 +96,7 @@ TEST_F(Openscad, Coverage_and_colour_equal_its_preview_for_the_same_options) {
     for (const CameraOptions& camera : cameras) {
       const Difference d = compareWithPreview(text, camera);
       EXPECT_EQ(d.coverage, 0) << text;
-      EXPECT_EQ(d.color, 0) << text;
+      EXPECT_LE(d.color, kCreasePixels) << text;
       EXPECT_GT(d.covered, 2000);
     }
   }
@@ -102,7 +104,7 @@ TEST_F(Openscad, Coverage_and_colour_equal_its_preview_for_the_same_options) {
 
 TEST_F(Openscad, Preview_of_a_coplanar_difference_is_wrong) {
   const Difference d = compareWithPreview(coplanarDifference().text, {{}, true, true, true, 1024, 768});
-  std::printf("openscad's preview of a coplanar difference, 1024 x 768: %d wrong off-edge pixels\n", d.color);
+  std::printf("openscad's preview of a coplanar difference, 1024 x 768: %d of %d covered pixels wrong, off edges\n", d.color, d.covered);
   EXPECT_GT(d.color, 1000);
 }
 
