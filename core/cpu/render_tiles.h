@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -44,8 +45,8 @@ class TileRenderer {
     if (!fold_.beginTile(tile_)) return;
     tile_.setUp(frame_);
     const double farthest = fold_.narrowTile(tile_);
+    if (farthest == -std::numeric_limits<double>::infinity()) return;
     tile_.finish(frame_, farthest, options_.decideAllExactly);
-    if (tile_.setups.empty()) return;
     std::fill(std::begin(done_), std::end(done_), 0);
     finished_ = 0;
     drawRect(BlockRect{0, 0, (tile_.width + kBlockSize - 1) / kBlockSize, (tile_.height + kBlockSize - 1) / kBlockSize});

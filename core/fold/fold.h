@@ -26,7 +26,8 @@ template <class F>
 concept Fold = requires(F fold, cpu::Tile& tile, const PixelStack& stack, std::uint32_t slot, int x, int y) {
   // Looks at the tile's objects, may drop some; false: no pixel of the tile shows anything.
   { fold.beginTile(tile) } -> std::same_as<bool>;
-  // Looks at the depths of the kept objects, may drop more; returns the order value (depth_planes.h) beyond which nothing matters.
+  // Looks at the depths of the kept objects, may drop more; returns the order value (depth_planes.h) beyond which nothing matters,
+  // -inf when no pixel of the tile shows anything.
   { fold.narrowTile(tile) } -> std::convertible_to<double>;
   // True when the tile's pixels need their whole stack before they start.
   { fold.needsWholeStack() } -> std::same_as<bool>;
