@@ -11,6 +11,7 @@ namespace copeel::validation {
 namespace {
 
 constexpr double kDeclaredTolerance = 1e-10;   // of the scene's diagonal, DESIGN.md
+constexpr double kNearShare = 1e-10;           // of the diagonal: what lies nearer before a perspective eye counts as behind it
 constexpr double kLeastUlps = 16;              // of the largest coordinate: below that a turned vertex does not find its plane again
 
 bool contains(const Box& box, const glm::dvec3& p) {
@@ -149,6 +150,7 @@ template <class Visit>
 void CsgOracle::walk(const Ray& ray, Visit visit) const {
   if (model_.root == csg::kNoNode) return;
   std::vector<Crossing> crossings = caster_->cross(ray);
+  if (caster_->view().perspective) std::erase_if(crossings, [&](const Crossing& c) { return c.depth.value < kNearShare * diagonal_; });
   std::vector<int> before = windingAtStart(crossings);
   for (std::size_t first = 0, last; first < crossings.size(); first = last) {
     std::vector<int> after = before;

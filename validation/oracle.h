@@ -8,7 +8,8 @@
 // Rules, as DESIGN.md states them: inside is winding ≠ 0 (or > 0, or odd). Where several faces of one depth could show, the later operand wins, at
 // every node of the tree. Perspective rays start at the eye, where a closed leaf's winding number is what its crossings in front leave over
 // and an open leaf's is 0 outside its box and the rounded generalised winding number within (Jacobson et al., Robust Inside-Outside
-// Segmentation using Generalized Winding Numbers, ACM ToG 2013). Orthographic rays come from infinity.
+// Segmentation using Generalized Winding Numbers, ACM ToG 2013). A face that the eye lies on, to within 1e-10 of the scene's diagonal, is behind
+// it. Orthographic rays come from infinity.
 #pragma once
 
 #include <cstdint>
