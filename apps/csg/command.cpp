@@ -135,6 +135,7 @@ void run(CommandOptions options) {
   progress.reset();
   if (!common.quiet) {
     for (const std::string& warning : model.warnings) fmt::print(stderr, "copeel: warning: {}\n", warning);
+    if (drawing.stats.triangles == 0) fmt::print(stderr, "copeel: warning: {}: there is nothing to draw\n", inputs[0]);
   }
   drawing.stats.loadMs = loadMs;
   drawing.stats.memoryBytes = peakMemoryBytes();

@@ -105,7 +105,11 @@ class Expression {
   // A file named twice is read once.
   std::uint32_t leafOf(std::size_t index) {
     std::shared_ptr<const Mesh>& mesh = meshes_[paths_[index]];
-    if (!mesh) mesh = std::make_shared<const Mesh>(readMesh(paths_[index]));
+    if (!mesh) {
+      mesh = std::make_shared<const Mesh>(readMesh(paths_[index]));
+      const std::string found = statusOf(*mesh).summary();
+      if (!found.empty()) model_.warnings.push_back(fmt::format("{}: {}", paths_[index], found));
+    }
     Node node;
     node.operation = Operation::Leaf;
     node.leaf = static_cast<std::uint32_t>(model_.leaves.size());

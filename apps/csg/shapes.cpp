@@ -181,6 +181,8 @@ MeshPointer Shapes::makeImport(const SyntaxNode& node) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) tree_.fail(node.textBegin, fmt::format("{}: no such file", file.string()));
   Mesh mesh = readMesh(file.string());
+  const std::string found = statusOf(mesh).summary();
+  if (!found.empty()) warnings_.push_back(fmt::format("{}: {}", file.string(), found));
   return mesh.triangles.empty() ? nullptr : std::make_shared<const Mesh>(std::move(mesh));
 }
 

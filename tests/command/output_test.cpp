@@ -65,6 +65,18 @@ TEST_F(Output, PictureDepthAndIdsAgreeOnWhatIsSeen) {
 }
 
 // Colours follow their files through an expression that names them in another order, and a name with a colon is a name.
+TEST_F(Output, WhatIsFoundInAMeshIsSaid) {
+  write("open.off", "OFF\n4 3 0\n0 0 0\n10 0 0\n0 10 0\n0 0 10\n3 0 2 1\n3 0 1 3\n3 0 3 2\n");
+  const Outcome found = run({"csg", "open.off", "-o", "a.png"});
+  EXPECT_EQ(found.exitCode, 0);
+  EXPECT_NE(found.standardError.find("open.off: not closed (3 boundary edges)"), std::string::npos) << found.standardError;
+  write("empty.csg", "group();\n");
+  const Outcome empty = run({"csg", "empty.csg", "-o", "b.png"});
+  EXPECT_EQ(empty.exitCode, 0);
+  EXPECT_NE(empty.standardError.find("empty.csg: there is nothing to draw"), std::string::npos) << empty.standardError;
+  EXPECT_EQ(run({"csg", "open.off", "-o", "a.png", "--quiet"}).standardError, "");
+}
+
 TEST_F(Output, MeshesKeepTheirLook) {
   const std::string corners = "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
   write("a.off", "OFF\n4 4 0\n0 0 0\n10 0 0\n0 10 0\n0 0 10\n" + corners);

@@ -36,6 +36,19 @@ TEST(Blend, aTranslucentSolidBlendsOnceOverWhatLiesBehind) {
   expectColor(middle(unite({cube(1, with(kRed, 0.5), {0, 0, 6}), cube(1, with(kGreen, 0.5), {0, 0, 3}), cube(1, kBlue)})), 128, 64, 64);
 }
 
+// Seen from above, two cubes of equal height in one colour show one plane: the line between them comes from the leaf alone.
+TEST(Edges, areBlackWhereOneVisibleFaceEnds) {
+  csg::RenderOptions options;
+  options.edges = true;
+  const View view = lookAt({0.021, 0.032, 20}, {0.021, 0.032, 0}, 41, 41, 0.004);
+  const Image<Rgb8> image = draw(modelOf(unite({cube(1, kRed, {-1, 0, 0}), cube(1, kRed, {1, 0, 0})})), view, options).frame.color;
+  int black = 0;
+  for (int x = 0; x < image.width; ++x) black += image.at(x, 20) == Rgb8{};
+  EXPECT_EQ(black, 1);
+  EXPECT_EQ(image.at(5, 20), image.at(35, 20));
+  EXPECT_NE(image.at(5, 20), Rgb8{});
+}
+
 TEST(Blend, wallsBetweenTwoSolidsOfOneUnionDoNotShow) {
   expectColor(middle(unite({cube(1, with(kRed, 0.5), {0, 0, 2}), cube(1, with(kGreen, 0.5))})), 128, 0, 0);       // they touch
   expectColor(middle(unite({cube(1, with(kRed, 0.5), {0, 0, 1}), cube(1, with(kGreen, 0.5))})), 128, 0, 0);       // they overlap
