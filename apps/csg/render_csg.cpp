@@ -8,7 +8,6 @@
 #include <unordered_map>
 
 #include <sys/resource.h>
-#include <tbb/task_arena.h>
 
 #include "apps/csg/bounds.h"
 #include "apps/csg/look.h"
@@ -16,6 +15,7 @@
 #include "core/cpu/render_tiles.h"
 #include "core/formats/read_mesh.h"
 #include "core/methods/method.h"
+#include "core/parallel.h"
 
 namespace copeel::csg {
 namespace {
@@ -75,7 +75,7 @@ struct Renderer::State {
   GateForest forest;
   std::unique_ptr<Look> look;
   std::unordered_map<const Mesh*, bool> closedMeshes;   // found out only where the eye may be inside
-  std::unique_ptr<tbb::task_arena> arena;
+  std::unique_ptr<Threads> threads;
   Stats stats;
 
   State(const Model& m, const RenderOptions& o) : model(m), options(o) {}
@@ -255,8 +255,8 @@ void Renderer::State::drawSamples(const View& view, Image<Rgb8>& color) {
 
 Renderer::Renderer(const Model& model, const RenderOptions& options) : state_(std::make_unique<State>(model, options)) {
   if (!findMethod(options.method)) failUsage("--method {}: there is no such method", options.method);
-  state_->arena = std::make_unique<tbb::task_arena>(options.threads > 0 ? options.threads : int{tbb::task_arena::automatic});
-  state_->arena->execute([&] { state_->prepare(); });
+  state_->threads = std::make_unique<Threads>(options.threads);
+  state_->threads->execute([&] { state_->prepare(); });
 }
 
 Renderer::~Renderer() = default;
@@ -274,7 +274,7 @@ Frame Renderer::draw(const View& view) {
   if (options.wantIds) frame.ids = Image<std::uint16_t>(view.width, view.height);
   Image<Shown> shown;
   if (options.edges) shown = Image<Shown>(view.width, view.height);
-  state.arena->execute([&] {
+  state.threads->execute([&] {
     // Depth, ids and edges are those of the pixel's centre.
     if (options.samples <= 1 || options.wantDepth || options.wantIds || options.edges) {
       FrameSink sink(frame, *state.look, nullptr, options.edges ? &shown : nullptr);

@@ -7,7 +7,8 @@
 #include <limits>
 
 #include <glm/geometric.hpp>
-#include <tbb/parallel_for.h>
+
+#include "core/parallel.h"
 
 namespace copeel {
 namespace {
@@ -92,8 +93,8 @@ std::vector<DepthPlane> depthPlanes(const Scene& scene, const PlaneClasses& plan
                     glm::length(view.right),
                     glm::length(view.down)};
   std::vector<DepthPlane> result(planes.classes().size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, result.size(), 1024), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) result[i] = depthPlane(scene, planes.classes()[i], setup);
+  parallelFor(result.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i) result[i] = depthPlane(scene, planes.classes()[i], setup);
   });
   return result;
 }

@@ -8,10 +8,11 @@
 #include <limits>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
 #include <glm/geometric.hpp>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
+
+#include "core/parallel.h"
 
 namespace copeel {
 namespace {
@@ -260,15 +261,17 @@ PlaneClasses::PlaneClasses(const Scene& scene, double tolerance)
     return facet;
   };
   std::vector<FacetKey> keys(facetCount);
-  tbb::parallel_for(std::size_t{0}, scene.objects().size(), [&](std::size_t object) {
-    const std::size_t count = scene.objects()[object].mesh->facetCount();
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kBlock), [&](const auto& range) {
-      for (std::size_t f = range.begin(); f != range.end(); ++f) {
-        keys[firstFacet_[object] + f] = measured(static_cast<std::uint32_t>(object), static_cast<std::uint32_t>(f)).key;
-      }
-    });
+  parallelFor(scene.objects().size(), 1, [&](std::size_t firstObject, std::size_t endObject) {
+    for (std::size_t object = firstObject; object != endObject; ++object) {
+      const std::size_t count = scene.objects()[object].mesh->facetCount();
+      parallelFor(count, kBlock, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f != end; ++f) {
+          keys[firstFacet_[object] + f] = measured(static_cast<std::uint32_t>(object), static_cast<std::uint32_t>(f)).key;
+        }
+      });
+    }
   });
-  tbb::parallel_sort(keys.begin(), keys.end(), [](const FacetKey& a, const FacetKey& b) {
+  parallelSort(keys.begin(), keys.end(), [](const FacetKey& a, const FacetKey& b) {
     return std::tuple(-a.area, a.tie, a.object, a.facet) < std::tuple(-b.area, b.tie, b.object, b.facet);
   });
 
@@ -278,8 +281,8 @@ PlaneClasses::PlaneClasses(const Scene& scene, double tolerance)
   std::vector<Facet> block;
   for (std::size_t begin = 0; begin < keys.size(); begin += kBlock) {
     block.resize(std::min(kBlock, keys.size() - begin));
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, block.size(), 64), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i != range.end(); ++i) block[i] = measured(keys[begin + i].object, keys[begin + i].facet);
+    parallelFor(block.size(), 64, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i != last; ++i) block[i] = measured(keys[begin + i].object, keys[begin + i].facet);
     });
     for (const Facet& facet : block) {
       std::uint32_t found = index.find(facet, [&](std::uint32_t c) { return agrees(scene, facet, classes_[c], *starts[facet.key.object], tolerance_); });

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+#include "core/parallel.h"
 
 namespace copeel::cpu {
 namespace {
@@ -120,9 +120,11 @@ Bins binTriangles(const Scene& scene, const View& view, const Projection& projec
   bins.rows = (view.height + kTileSize - 1) / kTileSize;
   const std::vector<Chunk> chunks = chunksOf(scene);
   std::vector<ChunkBins> parts(chunks.size());
-  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t i) {
-    parts[i].entries.reserve(chunks[i].count);
-    binChunk(scene, view, projection, chunks[i], bins.columns, parts[i]);
+  parallelFor(chunks.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i) {
+      parts[i].entries.reserve(chunks[i].count);
+      binChunk(scene, view, projection, chunks[i], bins.columns, parts[i]);
+    }
   });
 
   // Join the clipped pieces, and let the references follow.
@@ -136,15 +138,17 @@ Bins binTriangles(const Scene& scene, const View& view, const Projection& projec
 
   // Counting sort by tile: groups of consecutive chunks count for themselves, a prefix sum over (tile, group) gives each its places.
   const std::size_t tiles = static_cast<std::size_t>(bins.columns) * bins.rows;
-  const std::size_t groups = std::clamp<std::size_t>(tbb::this_task_arena::max_concurrency(), 1, std::max<std::size_t>(parts.size(), 1));
+  const std::size_t groups = std::clamp<std::size_t>(threadLimit(), 1, std::max<std::size_t>(parts.size(), 1));
   std::vector<std::vector<std::uint64_t>> place(groups, std::vector<std::uint64_t>(tiles, 0));
-  const auto forGroup = [&](std::size_t g, auto&& visit) {
-    for (std::size_t i = parts.size() * g / groups; i < parts.size() * (g + 1) / groups; ++i) visit(parts[i]);
-  };
-  tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t g) {
-    forGroup(g, [&](const ChunkBins& part) {
-      for (const Entry& e : part.entries) ++place[g][e.tile];
+  const auto forGroups = [&](auto&& visit) {
+    parallelFor(groups, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t g = begin; g != end; ++g) {
+        for (std::size_t i = parts.size() * g / groups; i < parts.size() * (g + 1) / groups; ++i) visit(parts[i], place[g]);
+      }
     });
+  };
+  forGroups([](const ChunkBins& part, std::vector<std::uint64_t>& counts) {
+    for (const Entry& e : part.entries) ++counts[e.tile];
   });
   bins.first.resize(tiles + 1);
   std::uint64_t sum = 0;
@@ -154,11 +158,9 @@ Bins binTriangles(const Scene& scene, const View& view, const Projection& projec
   }
   bins.first[tiles] = sum;
   bins.references.resize(sum);
-  tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t g) {
-    forGroup(g, [&](ChunkBins& part) {
-      for (const Entry& e : part.entries) bins.references[place[g][e.tile]++] = e.reference;
-      part.entries = {};
-    });
+  forGroups([&](ChunkBins& part, std::vector<std::uint64_t>& places) {
+    for (const Entry& e : part.entries) bins.references[places[e.tile]++] = e.reference;
+    part.entries = {};
   });
   return bins;
 }

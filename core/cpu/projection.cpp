@@ -8,9 +8,9 @@
 #include <tuple>
 
 #include <glm/geometric.hpp>
-#include <tbb/parallel_for.h>
 
 #include "core/coplanarity/depth_planes.h"
+#include "core/parallel.h"
 
 namespace copeel::cpu {
 namespace {
@@ -93,16 +93,18 @@ Projection project(const Scene& scene, const View& view) {
   const Camera camera(view);
   const Frame frame = frameOf(view, result.grid);
   const double nearest = nearDistance(scene, view);
-  tbb::parallel_for(std::size_t{0}, scene.objects().size(), [&](std::size_t object) {
-    const Object& placed = scene.objects()[object];
-    glm::ivec2* out = result.vertices.data() + result.firstVertex[object];
-    for (const glm::dvec3& vertex : placed.mesh->vertices) {
-      const glm::dvec3 p = camera(transformPoint(placed.worldFromObject, vertex));
-      const bool behind = view.perspective && !(p.z >= nearest);
-      if (behind) result.reachesEye[object] = 1;
-      const double w = camera.weight(p), u = p.x / w, v = p.y / w;
-      const bool fits = !behind && std::abs(u) <= frame.limitX && std::abs(v) <= frame.limitY;
-      *out++ = fits ? snap(u, v, frame) : glm::ivec2(kOffGrid, 0);
+  parallelFor(scene.objects().size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t object = begin; object != end; ++object) {
+      const Object& placed = scene.objects()[object];
+      glm::ivec2* out = result.vertices.data() + result.firstVertex[object];
+      for (const glm::dvec3& vertex : placed.mesh->vertices) {
+        const glm::dvec3 p = camera(transformPoint(placed.worldFromObject, vertex));
+        const bool behind = view.perspective && !(p.z >= nearest);
+        if (behind) result.reachesEye[object] = 1;
+        const double w = camera.weight(p), u = p.x / w, v = p.y / w;
+        const bool fits = !behind && std::abs(u) <= frame.limitX && std::abs(v) <= frame.limitY;
+        *out++ = fits ? snap(u, v, frame) : glm::ivec2(kOffGrid, 0);
+      }
     }
   });
   return result;

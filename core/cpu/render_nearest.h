@@ -6,10 +6,10 @@
 #include <vector>
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include "core/cpu/frame.h"
 #include "core/cpu/tile.h"
+#include "core/parallel.h"
 
 namespace copeel::cpu {
 
@@ -21,11 +21,11 @@ void renderNearest(const Frame& frame, Visit visit) {
     std::vector<std::uint64_t> nearest = std::vector<std::uint64_t>(kBlocksPerTile * kBlockPixels);
   };
   tbb::enumerable_thread_specific<Local> locals;
-  tbb::parallel_for(tbb::blocked_range<int>(0, frame.tileCount(), 1), [&](const auto& range) {
+  parallelFor(static_cast<std::size_t>(frame.tileCount()), 1, [&](std::size_t begin, std::size_t end) {
     Local& local = locals.local();
-    for (int i = range.begin(); i != range.end(); ++i) {
+    for (std::size_t i = begin; i != end; ++i) {
       Tile& tile = local.tile;
-      tile.begin(frame, i);
+      tile.begin(frame, static_cast<int>(i));
       tile.setUp(frame);
       tile.finish(frame, std::numeric_limits<double>::infinity(), false);
       std::fill(local.nearest.begin(), local.nearest.end(), kEmptyKey);
@@ -38,7 +38,7 @@ void renderNearest(const Frame& frame, Visit visit) {
         }
       }
     }
-  }, tbb::simple_partitioner());
+  }, Split::ToGrain);
 }
 
 }  // namespace copeel::cpu

@@ -8,10 +8,10 @@
 #include <limits>
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include "core/cpu/walk.h"
 #include "core/error.h"
+#include "core/parallel.h"
 
 namespace copeel::cpu {
 
@@ -152,10 +152,10 @@ template <class MakeFold>
 TileCounts renderTiles(const Frame& frame, const TileOptions& options, MakeFold makeFold) {
   using F = decltype(makeFold());
   tbb::enumerable_thread_specific<TileRenderer<F>> renderers([&] { return TileRenderer<F>(frame, options, makeFold()); });
-  tbb::parallel_for(tbb::blocked_range<int>(0, frame.tileCount(), 1), [&](const auto& range) {
+  parallelFor(static_cast<std::size_t>(frame.tileCount()), 1, [&](std::size_t begin, std::size_t end) {
     TileRenderer<F>& renderer = renderers.local();
-    for (int i = range.begin(); i != range.end(); ++i) renderer.draw(i);
-  }, tbb::simple_partitioner());
+    for (std::size_t i = begin; i != end; ++i) renderer.draw(static_cast<int>(i));
+  }, Split::ToGrain);
   TileCounts total;
   for (const auto& renderer : renderers) {
     const TileCounts counts = renderer.counts();
