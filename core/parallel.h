@@ -38,49 +38,53 @@ using Call = void (*)(void* body, std::size_t begin, std::size_t end);
 
 void forRanges(std::size_t count, std::size_t grain, Split split, Call call, void* body);
 
-// What is handed to the threads, and back; empty unless under ThreadSanitizer.
+// The fork and the join of one loop; says nothing unless under ThreadSanitizer.
 class ForkJoin {
  public:
-#ifdef COPEEL_TSAN
-  ForkJoin() { __tsan_release(&fork_); }
-  ~ForkJoin() { __tsan_acquire(&join_); }
-  void beginBody() { __tsan_acquire(&fork_); }
-  void endBody() { __tsan_release(&join_); }
-
- private:
-  char fork_ = 0, join_ = 0;
-#else
-  ForkJoin() {}
-  ~ForkJoin() {}
-  void beginBody() {}
-  void endBody() {}
-#endif
+  ForkJoin() = default;
   ForkJoin(const ForkJoin&) = delete;
   ForkJoin& operator=(const ForkJoin&) = delete;
-};
-
-// Around one body; left by an exception too, as TBB carries it to the join.
-class BodyScope {
- public:
-  explicit BodyScope(ForkJoin& forkJoin) : forkJoin_(forkJoin) { forkJoin_.beginBody(); }
-  ~BodyScope() { forkJoin_.endBody(); }
-  BodyScope(const BodyScope&) = delete;
-  BodyScope& operator=(const BodyScope&) = delete;
+#ifdef COPEEL_TSAN
+  void fork() { __tsan_release(&fork_); }
+  void beginBody() { __tsan_acquire(&fork_); }
+  void endBody() { __tsan_release(&join_); }
+  void join() { __tsan_acquire(&join_); }
 
  private:
-  ForkJoin& forkJoin_;
+  char fork_ = 0, join_ = 0;   // their addresses are the tags
+#else
+  void fork() {}
+  void beginBody() {}
+  void endBody() {}
+  void join() {}
+#endif
 };
 
+// A loop's body as TBB's side calls it. The tags lie inside, as nothing may be read before the fork is acquired.
 template <class Body>
-struct Bound {
-  Body& body;
-  ForkJoin& forkJoin;
+class Loop {
+ public:
+  explicit Loop(Body& body) : body_(&body) { forkJoin_.fork(); }
+  ~Loop() { forkJoin_.join(); }
+  Loop(const Loop&) = delete;
+  Loop& operator=(const Loop&) = delete;
 
-  static void call(void* bound, std::size_t begin, std::size_t end) {
-    const Bound& self = *static_cast<Bound*>(bound);
-    const BodyScope scope(self.forkJoin);
-    self.body(begin, end);
+  static void call(void* loop, std::size_t begin, std::size_t end) {
+    Loop& self = *static_cast<Loop*>(loop);
+    self.forkJoin_.beginBody();
+    // Left by an exception too, as TBB carries it to the join.
+    const End atEnd{self.forkJoin_};
+    (*self.body_)(begin, end);
   }
+
+ private:
+  struct End {
+    ForkJoin& forkJoin;
+    ~End() { forkJoin.endBody(); }
+  };
+
+  Body* body_;
+  ForkJoin forkJoin_;
 };
 
 }  // namespace parallel
@@ -88,10 +92,9 @@ struct Bound {
 // `body(begin, end)` for ranges that make up [0, count), none split below `grain`. An exception of a body is thrown on.
 template <class Body>
 void parallelFor(std::size_t count, std::size_t grain, Body&& body, Split split = Split::AsNeeded) {
-  using Bound = parallel::Bound<std::remove_reference_t<Body>>;
-  parallel::ForkJoin forkJoin;
-  Bound bound{body, forkJoin};
-  parallel::forRanges(count, grain, split, &Bound::call, &bound);
+  using Loop = parallel::Loop<std::remove_reference_t<Body>>;
+  Loop loop(body);
+  parallel::forRanges(count, grain, split, &Loop::call, &loop);
 }
 
 // The order must be total: equal elements may come in any order.
@@ -117,10 +120,9 @@ class Threads {
   template <class Body>
   void execute(Body&& body) {
     const auto once = [&](std::size_t, std::size_t) { body(); };
-    using Bound = parallel::Bound<decltype(once)>;
-    parallel::ForkJoin forkJoin;
-    Bound bound{once, forkJoin};
-    run(&Bound::call, &bound);
+    using Loop = parallel::Loop<decltype(once)>;
+    Loop loop(once);
+    run(&Loop::call, &loop);
   }
 
  private:

@@ -3,7 +3,6 @@
 #include "core/cpu/binning.h"
 
 #include <algorithm>
-#include <atomic>
 #include <utility>
 
 #include "core/parallel.h"
