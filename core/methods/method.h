@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/methods/draw.h"
+
 namespace copeel {
 
 struct MethodInfo {
@@ -16,6 +18,7 @@ struct MethodInfo {
   std::string_view memory;      // bytes, a formula
   std::string_view robustness;  // R_h, a formula
   bool robust;                  // delivers every fragment
+  DrawMethod draw = nullptr;    // of the gl back end
 };
 
 const std::vector<MethodInfo>& methods();

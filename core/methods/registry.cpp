@@ -1,5 +1,8 @@
 // One line a method.
 #include "core/methods/method.h"
+#if COPEEL_GL
+#include "core/methods/methods_gl.h"
+#endif
 
 namespace copeel {
 
@@ -9,6 +12,10 @@ const std::vector<MethodInfo>& methods() {
        "8 bytes a fragment of the tiles in flight", "1", true},
       {"zbuffer", "plain z-buffer, the nearest fragment only", "Catmull 1974", "cpu", "1", "8 bytes a pixel of the tiles in flight",
        "covered pixels / N", false},
+#if COPEEL_GL
+      {"f2b", "front-to-back depth peeling", "Everitt 2001", "gl", "D + 1", "12 a pixel", "D / N", false, drawF2b},
+      {"ll", "A-buffer in per-pixel linked lists", "Yang 2010", "gl", "1, 2 where it grows", "4 a pixel + 12 a fragment", "1", true, drawLl},
+#endif
   };
   return all;
 }

@@ -1,0 +1,48 @@
+// Keeps the whole pixel stack, for tests and reports: result words are the fragments delivered by the front and by the back side, then
+// FOLD_RECORD_CAPACITY entries of (id, number of the group on its side). Front entries come first, back ones run from the end downwards.
+uint recordCount, recordGroups;
+uint recordSide;
+
+uint recordAt() { return pixelIndex() * (2u + 2u * uint(FOLD_RECORD_CAPACITY)); }
+
+void foldStore(uint side) {
+  uint at = foldStateAt(side, 2u);
+  foldStates[at] = recordCount;
+  foldStates[at + 1u] = recordGroups;
+}
+
+void foldLoad(uint side) {
+  uint at = foldStateAt(side, 2u);
+  recordCount = foldStates[at];
+  recordGroups = foldStates[at + 1u];
+  recordSide = side;
+}
+
+void foldInitial(uint side) {
+  recordCount = recordGroups = 0u;
+  foldStore(side);
+}
+
+void foldFront(uint id) {
+  if (recordCount < uint(FOLD_RECORD_CAPACITY)) {
+    uint entry = recordSide == COPEEL_FRONT ? recordCount : uint(FOLD_RECORD_CAPACITY) - 1u - recordCount;
+    uint at = recordAt() + 2u + 2u * entry;
+    foldResults[at] = id;
+    foldResults[at + 1u] = recordGroups;
+  }
+  ++recordCount;
+}
+void foldBehind(uint id) { foldFront(id); }
+
+bool foldCloseGroup(uint key) {
+  ++recordGroups;
+  return false;
+}
+
+void foldFinish() {
+  uint at = recordAt();
+  foldLoad(COPEEL_BACK);
+  foldResults[at + 1u] = recordCount;
+  foldLoad(COPEEL_FRONT);
+  foldResults[at] = recordCount;
+}

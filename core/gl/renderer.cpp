@@ -1,0 +1,21 @@
+#include "core/gl/renderer.h"
+
+namespace copeel::gl {
+
+Renderer::Renderer(const Scene& scene, const PlaneClasses& planes, DepthSource depthSource)
+    : scene_(scene), planes_(planes), buffers_(scene, planes), frame_(buffers_, programs_, depthSource) {}
+
+void Renderer::setView(const View& view) { frame_.setView(view, depthPlanes(scene_, planes_, view)); }
+
+FrameCounts Renderer::draw(DrawMethod method, const MethodOptions& options) {
+  frame_.begin();
+  FrameCounts counts;
+  counts.method = method(frame_, options);
+  frame_.finish();
+  counts.passes = frame_.passes();
+  counts.methodBytes = frame_.methodBytes();
+  counts.foldBytes = frame_.foldBytes();
+  return counts;
+}
+
+}  // namespace copeel::gl

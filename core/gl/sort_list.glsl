@@ -1,0 +1,42 @@
+// Sorts a linked list of fragments where it lies, and delivers it: for the methods that gather into lists. The file that includes this defines LIST_NODES,
+// an array of records {next, key, id}; links are index + 1, 0 ends a list.
+//
+// Bottom-up merge sort: n log n, no memory but the links. Order: key, then the later primitive first (as the fold wants groups).
+bool listBefore(uint a, uint b) {
+  uint keyA = LIST_NODES[a - 1u].key, keyB = LIST_NODES[b - 1u].key;
+  if (keyA != keyB) return keyA < keyB;
+  return (LIST_NODES[a - 1u].id & COPEEL_ID_PRIMITIVE) > (LIST_NODES[b - 1u].id & COPEEL_ID_PRIMITIVE);
+}
+
+uint sortList(uint head) {
+  for (uint run = 1u;; run *= 2u) {
+    uint rest = head, last = 0u, merges = 0u;
+    head = 0u;
+    while (rest != 0u) {
+      // Runs a and b of at most `run` nodes each follow one another in the list.
+      ++merges;
+      uint a = rest, b = rest, left = 0u, right = run;
+      for (; left < run && b != 0u; ++left) b = LIST_NODES[b - 1u].next;
+      while (left > 0u || (right > 0u && b != 0u)) {
+        bool takeB = left == 0u || (right > 0u && b != 0u && listBefore(b, a));
+        uint node = takeB ? b : a;
+        if (takeB) b = LIST_NODES[b - 1u].next, --right;
+        else a = LIST_NODES[a - 1u].next, --left;
+        if (last == 0u) head = node;
+        else LIST_NODES[last - 1u].next = node;
+        last = node;
+      }
+      rest = b;
+    }
+    if (last != 0u) LIST_NODES[last - 1u].next = 0u;
+    if (merges <= 1u) return head;
+  }
+}
+
+void deliverList(uint head) {
+  for (uint node = head; node != 0u;) {
+    uint key = LIST_NODES[node - 1u].key;
+    for (; node != 0u && LIST_NODES[node - 1u].key == key; node = LIST_NODES[node - 1u].next) foldFront(LIST_NODES[node - 1u].id);
+    if (foldCloseGroup(key)) return;
+  }
+}

@@ -1,0 +1,11 @@
+// The draw functions of the methods of the gl back end, one line each, for the registry.
+#pragma once
+
+#include "core/methods/draw.h"
+
+namespace copeel {
+
+MethodCounts drawF2b(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawLl(gl::Frame& frame, const MethodOptions& options);
+
+}  // namespace copeel
