@@ -84,7 +84,7 @@ void addCommonOptions(CLI::App& command, CommonOptions& options) {
   });
   addWhole(command, "--threads", options.threads, 1, kMaxThreads, "how many threads (all cores)");
   addParsed(command, "--memory", "BYTES", "the most data memory while drawing, such as 512M or 2G",
-            [&options](const std::string& text) { options.memoryBytes = parseBytes(text, "--memory"); });
+            [&options](const std::string& text) { options.memoryBytes = options.methodOptions.memoryBytes = parseBytes(text, "--memory"); });
   addWhole(command, "--samples", options.samples, 1, kMaxSamples, "samples a pixel, for smooth edges (1)");
   addParsed(command, "--coplanar-tolerance", "LENGTH", "faces closer than this are one face, in model units (by the input's precision)",
             [&options](const std::string& text) {
@@ -108,10 +108,6 @@ std::string pictureFile(const CommonOptions& options, const std::string& input) 
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (ending != ".png" && !isStream(options.output)) failUsage("-o takes the name of a .png, not {}", options.output);
   return options.output;
-}
-
-void checkBackend(const CommonOptions& options) {
-  if (options.backend == "gl") failMachine("the gl back end is not built in this version; use --backend cpu or auto");
 }
 
 void limitMemory(std::uint64_t bytes) {

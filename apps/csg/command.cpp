@@ -18,6 +18,7 @@
 #include "apps/csg/scad_camera.h"
 #include "core/error.h"
 #include "core/image/write_image.h"
+#include "core/methods/method.h"
 #include "core/output_file.h"
 
 namespace copeel::csg {
@@ -108,7 +109,7 @@ std::uint64_t peakMemoryBytes() {
 void run(CommandOptions options) {
   const auto start = Clock::now();
   const InputKind kind = inputKind(options);
-  checkBackend(options.common);
+  chooseMethod(options.common.backend, options.common.method);   // refused before anything is read
   const std::vector<MeshArgument> files = filesOf(options, kind);
   // A view that cannot be is refused before anything is read.
   viewOf(options.common.camera, Box{{0, 0, 0}, {1, 1, 1}});

@@ -10,6 +10,9 @@
 #include <sys/resource.h>
 
 #include "apps/csg/bounds.h"
+#if COPEEL_GL
+#include "apps/csg/gl_pass.h"
+#endif
 #include "apps/csg/look.h"
 #include "core/cpu/render_nearest.h"
 #include "core/cpu/render_tiles.h"
@@ -30,6 +33,8 @@ std::uint64_t peakMemoryBytes() {
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
+
+double alphaOfLook(const void* look, std::uint32_t leaf, std::uint32_t part) { return static_cast<const Look*>(look)->alpha(leaf, part); }
 
 // A box that reaches from the section plane well past the model.
 std::shared_ptr<const Mesh> sectionMesh(const Section& section, const Box& bounds) {
@@ -76,6 +81,9 @@ struct Renderer::State {
   std::unique_ptr<Look> look;
   std::unordered_map<const Mesh*, bool> closedMeshes;   // found out only where the eye may be inside
   std::unique_ptr<Threads> threads;
+#if COPEEL_GL
+  std::unique_ptr<GlPass> glPass;                       // once a method of the gl back end draws
+#endif
   Stats stats;
 
   State(const Model& m, const RenderOptions& o) : model(m), options(o) {}
@@ -83,6 +91,7 @@ struct Renderer::State {
   std::vector<std::uint8_t> knownClosed;                // per object, found out for small meshes
   void findSmallClosedMeshes();
   std::vector<std::uint8_t> closedObjects(const std::vector<std::uint8_t>& reachesEye);
+  EyeWinding windingAtEye(const View& view, const std::vector<std::uint8_t>& reachesEye);
   void drawPass(const View& view, PixelSink& sink);
   void drawSamples(const View& view, Image<Rgb8>& color);
   void drawTiles(const cpu::Frame& frame, PixelSink& sink);
@@ -140,19 +149,17 @@ std::vector<std::uint8_t> Renderer::State::closedObjects(const std::vector<std::
   return closed;
 }
 
+EyeWinding Renderer::State::windingAtEye(const View& view, const std::vector<std::uint8_t>& reaches) {
+  if (std::find(reaches.begin(), reaches.end(), 1) == reaches.end()) return {};
+  return eyeWinding(scene, view.eye, reaches, closedObjects(reaches));
+}
+
 void Renderer::State::drawTiles(const cpu::Frame& frame, PixelSink& sink) {
-  EyeWinding eye;
-  const std::vector<std::uint8_t>& reaches = frame.projection.reachesEye;
-  if (std::find(reaches.begin(), reaches.end(), 1) != reaches.end()) {
-    eye = eyeWinding(scene, frame.view.eye, reaches, closedObjects(reaches));
-  }
-  const auto alpha = [](const void* context, std::uint32_t leaf, std::uint32_t part) {
-    return static_cast<const Look*>(context)->alpha(leaf, part);
-  };
-  cpu::TileOptions tileOptions;
+  const EyeWinding eye = windingAtEye(frame.view, frame.projection.reachesEye);
+    cpu::TileOptions tileOptions;
   tileOptions.decideAllExactly = options.decideAllExactly;
   const cpu::TileCounts counts = cpu::renderTiles(
-      frame, tileOptions, [&] { return CsgFold(forest, eye, knownClosed, options.inside, alpha, look.get(), sink); });
+      frame, tileOptions, [&] { return CsgFold(forest, eye, knownClosed, options.inside, alphaOfLook, look.get(), sink); });
   stats.fragments = stats.fragmentsCaptured = counts.fragments;
   stats.depthComplexityMax = counts.depthComplexityMax;
   stats.coveredPixels = counts.coveredPixels;
@@ -162,6 +169,14 @@ void Renderer::State::drawTiles(const cpu::Frame& frame, PixelSink& sink) {
 
 void Renderer::State::drawPass(const View& view, PixelSink& sink) {
   look->setView(planes, view);
+#if COPEEL_GL
+  if (const MethodInfo& method = *findMethod(options.method); method.draw) {
+    if (!glPass) glPass = std::make_unique<GlPass>(scene, planes, forest, options.inside);
+    const EyeWinding eye = windingAtEye(view, cpu::project(scene, view).reachesEye);
+    return glPass->draw(view, eye, alphaOfLook, look.get(), method, options.methodOptions, sink, stats);
+  }
+#endif
+  ++stats.passes;
   const cpu::Frame frame(scene, planes, view);
   if (options.method == "zbuffer") {
     cpu::renderNearest(frame, [&](int x, int y, const cpu::TileSlot* slot, const cpu::Tile& tile) {
@@ -267,6 +282,7 @@ const Stats& Renderer::stats() const { return state_->stats; }
 Frame Renderer::draw(const View& view) {
   State& state = *state_;
   const RenderOptions& options = state.options;
+  state.stats.passes = 0;
   Frame frame;
   const std::array<double, 3>& b = options.scheme.background;
   frame.color = Image<Rgb8>(view.width, view.height, FrameSink::toRgb8({b[0], b[1], b[2]}));
@@ -286,7 +302,6 @@ Frame Renderer::draw(const View& view) {
   if (options.edges) drawEdges(shown, frame.color);
   state.stats.width = view.width;
   state.stats.height = view.height;
-  state.stats.passes = std::max(options.samples, 1);
   state.stats.memoryBytes = peakMemoryBytes();
   return frame;
 }

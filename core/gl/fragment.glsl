@@ -38,7 +38,10 @@ uint keyOfPlane(uint planeClass) {
   return COPEEL_KEY_LEAST + (depthSign > 0 ? shiftedDifference(bits, depthNearest) : shiftedDifference(depthNearest, bits));
 }
 
+// To be asked before anything is written: a plane that holds the eye is seen as a line, and what clipping leaves of its triangles is no fragment.
 uint fragmentKey() {
+  uint planeClass = primitives[fragmentPrimitive()].planeClass;
+  if (planes[planeClass].lo > planes[planeClass].hi) discard;
   if (depthHardware != 0) return clamp(floatBitsToUint(gl_FragCoord.z), COPEEL_KEY_LEAST, COPEEL_KEY_NONE - 1u);
-  return keyOfPlane(primitives[fragmentPrimitive()].planeClass);
+  return keyOfPlane(planeClass);
 }

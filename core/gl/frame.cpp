@@ -176,14 +176,22 @@ void Frame::writeFrameBlock(const std::vector<DepthPlane>& depths) {
 
   std::vector<PlaneRecord> records;
   records.reserve(depths.size());
-  for (const DepthPlane& plane : depths) records.push_back({plane.a, plane.b, plane.c, plane.lo, plane.hi});
+  for (const DepthPlane& plane : depths) {
+    const bool holdsEye = std::isinf(plane.error);
+    records.push_back({plane.a, plane.b, plane.c, holdsEye ? 1.0f : plane.lo, holdsEye ? 0.0f : plane.hi});
+  }
   planes_ = Buffer(records);
 }
 
 void Frame::setFold(const FoldSource& fold) {
   fold_ = fold;
-  states_ = Buffer(pixelCount() * fold.stateWords * 2 * sizeof(std::uint32_t));
-  results_ = Buffer(pixelCount() * fold.resultWords * sizeof(std::uint32_t));
+  const std::uint64_t stateBytes = pixelCount() * fold.stateWords * 2 * sizeof(std::uint32_t);
+  const std::uint64_t resultBytes = pixelCount() * fold.resultWords * sizeof(std::uint32_t);
+  if (stateBytes + resultBytes > kMostFoldBytes) {
+    failMachine("gl: {} MB for the state of {} pixels; use --backend cpu", (stateBytes + resultBytes) >> 20, pixelCount());
+  }
+  if (states_.bytes() < stateBytes) states_ = Buffer(stateBytes);
+  if (results_.bytes() < resultBytes) results_ = Buffer(resultBytes);
 }
 
 const Program& Frame::geometryProgram(const std::string& file, const std::string& pass, const Defines& defines) {
@@ -259,7 +267,6 @@ void Frame::begin() {
   writeTargets(0);
   glViewport(0, 0, width_, height_);
   glDisable(GL_CULL_FACE);
-  glEnable(GL_DEPTH_CLAMP);
   // Rows run downwards here, which turns triangles about.
   glFrontFace(GL_CW);
   frameBlock_.bindUniform(COPEEL_BLOCK_FRAME);

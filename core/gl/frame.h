@@ -25,6 +25,9 @@ struct FoldSource {
   std::vector<const Buffer*> tables;                 // bound from COPEEL_BUFFER_FOLD_TABLE on
 };
 
+// States are per pixel: a model of a thousand leaves is one for the cpu back end.
+inline constexpr std::uint64_t kMostFoldBytes = std::uint64_t{2} << 30;
+
 class Frame {
  public:
   // Throws Error{Machine}: no memory on the device.
@@ -32,7 +35,7 @@ class Frame {
 
   // Projects the scene. `depths` are those of the view.
   void setView(const View& view, const std::vector<DepthPlane>& depths);
-  void setFold(const FoldSource& fold);
+  void setFold(const FoldSource& fold);   // throws Error{Machine} when its state and results outgrow kMostFoldBytes
 
   int width() const { return width_; }
   int height() const { return height_; }

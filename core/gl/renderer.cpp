@@ -7,8 +7,9 @@ Renderer::Renderer(const Scene& scene, const PlaneClasses& planes, DepthSource d
 
 void Renderer::setView(const View& view) { frame_.setView(view, depthPlanes(scene_, planes_, view)); }
 
-FrameCounts Renderer::draw(DrawMethod method, const MethodOptions& options) {
+FrameCounts Renderer::draw(DrawMethod method, const MethodOptions& options, const std::function<void(Frame&)>& before) {
   frame_.begin();
+  if (before) before(frame_);
   FrameCounts counts;
   counts.method = method(frame_, options);
   frame_.finish();

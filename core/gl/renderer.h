@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/gl/context.h"
@@ -24,10 +25,11 @@ class Renderer {
   Renderer(const Scene& scene, const PlaneClasses& planes, DepthSource depthSource = DepthSource::Planes);
 
   const Context& context() const { return context_; }
+  const PlaneClasses& planes() const { return planes_; }
   void setView(const View& view);                  // `view` may go afterwards
   void setFold(const FoldSource& fold) { frame_.setFold(fold); }   // after setView; its tables must live on
-  // Draws and waits until the device is done.
-  FrameCounts draw(DrawMethod method, const MethodOptions& options);
+  // Draws and waits until the device is done. `before`: passes that the fold needs before the method's.
+  FrameCounts draw(DrawMethod method, const MethodOptions& options, const std::function<void(Frame&)>& before = {});
   std::vector<std::uint32_t> result() const { return frame_.result(); }   // of the fold
   Frame& frame() { return frame_; }
 

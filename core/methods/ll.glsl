@@ -18,9 +18,10 @@ layout(std430, binding = COPEEL_BUFFER_METHOD + 2) coherent buffer Counter { uin
 uniform uint capacity;   // nodes
 
 void main() {
+  uint key = fragmentKey();
   uint node = atomicAdd(wanted, 1u);
   if (node >= capacity) return;
-  nodes[node] = Node(atomicExchange(heads[pixelIndex()], node + 1u), fragmentKey(), fragmentId());
+  nodes[node] = Node(atomicExchange(heads[pixelIndex()], node + 1u), key, fragmentId());
 }
 
 #elif defined(PASS_RESOLVE)

@@ -24,4 +24,8 @@ struct MethodInfo {
 const std::vector<MethodInfo>& methods();
 const MethodInfo* findMethod(std::string_view name);   // null when there is none of that name
 
+// The method for --backend cpu|gl|auto and --method NAME|auto: by its name, else the back end's all-round one; "auto" is the cpu unless the method
+// is the gl back end's. Throws Error{Usage} when the two do not go together, Error{Machine} when this build has no gl back end.
+const MethodInfo& chooseMethod(std::string_view backend, std::string_view name);
+
 }  // namespace copeel

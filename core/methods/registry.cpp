@@ -1,5 +1,7 @@
 // One line a method.
 #include "core/methods/method.h"
+
+#include "core/error.h"
 #if COPEEL_GL
 #include "core/methods/methods_gl.h"
 #endif
@@ -25,6 +27,17 @@ const MethodInfo* findMethod(std::string_view name) {
     if (method.name == name) return &method;
   }
   return nullptr;
+}
+
+const MethodInfo& chooseMethod(std::string_view backend, std::string_view name) {
+#if !COPEEL_GL
+  if (backend == "gl") failMachine("the gl back end is not in this build; use --backend cpu or auto");
+#endif
+  if (name == "auto") name = backend == "gl" ? "ll" : "tile";
+  const MethodInfo* method = findMethod(name);
+  if (!method) failUsage("no method '{}' (see copeel methods)", name);
+  if (backend != "auto" && method->backend != backend) failUsage("--method {} is one of the {} back end, not of {}", name, method->backend, backend);
+  return *method;
 }
 
 }  // namespace copeel

@@ -1,0 +1,27 @@
+// One pass of a CSG model through the gl back end: the same surfaces to the same sink as the tile renderer's, by any method of the registry.
+#pragma once
+
+#include <memory>
+
+#include "apps/csg/csg_fold.h"
+#include "core/metrics/stats.h"
+#include "core/methods/method.h"
+
+namespace copeel::csg {
+
+class GlPass {
+ public:
+  // Throws Error{Machine}: no GL, or not in this build. The arguments live longer.
+  GlPass(const Scene& scene, const PlaneClasses& planes, const GateForest& forest, InsideRule rule);
+  ~GlPass();
+
+  // `alpha` and `context` as CsgFold's. Throws Error{Machine}: the fold's state needs more memory than there is.
+  void draw(const View& view, const EyeWinding& eye, CsgFold::Alpha alpha, const void* context, const MethodInfo& method,
+            const MethodOptions& options, PixelSink& sink, Stats& stats);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace copeel::csg
