@@ -93,6 +93,7 @@ Drawing draw(const Model& model, const CommandOptions& options) {
     drawing.frame = renderer.draw(view);
     times.push_back(millisecondsSince(start));
   }
+  if (!options.common.statsFile.empty()) renderer.measure();
   drawing.stats = renderer.stats();
   std::sort(times.begin(), times.end());
   drawing.stats.frameMinMs = times.front();

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "core/gl/renderer.h"
+#include "core/gl/measure.h"
 
 namespace copeel::csg {
 namespace {
@@ -18,7 +18,8 @@ std::size_t stateWords(std::size_t leaves, std::size_t gates, std::size_t surfac
 }  // namespace
 
 struct GlPass::State {
-  State(const Scene& s, const PlaneClasses& planes, const GateForest& f, InsideRule r) : scene(s), forest(f), rule(r), renderer(s, planes) {
+  State(const Scene& s, const PlaneClasses& planes, const GateForest& f, InsideRule r, const MethodOptions& o)
+      : scene(s), forest(f), rule(r), options(o), renderer(s, planes, o.hardwareDepth ? gl::DepthSource::Hardware : gl::DepthSource::Planes) {
     std::vector<std::uint32_t> all(scene.objects().size());
     std::iota(all.begin(), all.end(), 0u);
     gates.prune(forest, all);
@@ -26,20 +27,21 @@ struct GlPass::State {
 
   std::vector<std::uint32_t> modelWords(const EyeWinding& eye, CsgFold::Alpha alpha, const void* context) const;
   void setFold(const std::vector<std::uint32_t>& words, const EyeWinding& eye);
-  gl::FrameCounts drawFrame(const EyeWinding& eye, const MethodInfo& method, const MethodOptions& options);
+  gl::FrameCounts drawFrame(const EyeWinding& eye, const MethodInfo& method);
   bool deliver(const View& view, PixelSink& sink) const;   // false: a pixel has more surfaces than were kept
 
   const Scene& scene;
   const GateForest& forest;
   InsideRule rule;
+  MethodOptions options;
   gl::Renderer renderer;
   PrunedForest gates;                       // all leaves live
   gl::Buffer model, fromStack;
   std::uint32_t surfaceLimit = kFirstSurfaceLimit;
 };
 
-GlPass::GlPass(const Scene& scene, const PlaneClasses& planes, const GateForest& forest, InsideRule rule)
-    : state_(std::make_unique<State>(scene, planes, forest, rule)) {}
+GlPass::GlPass(const Scene& scene, const PlaneClasses& planes, const GateForest& forest, InsideRule rule, const MethodOptions& options)
+    : state_(std::make_unique<State>(scene, planes, forest, rule, options)) {}
 
 GlPass::~GlPass() = default;
 
@@ -84,7 +86,7 @@ void GlPass::State::setFold(const std::vector<std::uint32_t>& words, const EyeWi
   renderer.setFold(fold);
 }
 
-gl::FrameCounts GlPass::State::drawFrame(const EyeWinding& eye, const MethodInfo& method, const MethodOptions& options) {
+gl::FrameCounts GlPass::State::drawFrame(const EyeWinding& eye, const MethodInfo& method) {
   const bool sums = eye.any && std::any_of(eye.fromStack.begin(), eye.fromStack.end(), [](auto s) { return s != 0; });
   return renderer.draw(method.draw, options, [&](gl::Frame& frame) {
     if (!sums) return;
@@ -115,17 +117,19 @@ bool GlPass::State::deliver(const View& view, PixelSink& sink) const {
 }
 
 void GlPass::draw(const View& view, const EyeWinding& eye, CsgFold::Alpha alpha, const void* context, const MethodInfo& method,
-                  const MethodOptions& options, PixelSink& sink, Stats& stats) {
+                  PixelSink& sink, Stats& stats) {
   State& state = *state_;
   state.renderer.setView(view);
   for (;; state.surfaceLimit *= 2) {
     state.setFold(state.modelWords(eye, alpha, context), eye);
-    const gl::FrameCounts counts = state.drawFrame(eye, method, options);
+    const gl::FrameCounts counts = state.drawFrame(eye, method);
     if (!state.deliver(view, sink)) continue;
     stats.passes += counts.passes;
     stats.overflow = counts.method.overflow;
     return;
   }
 }
+
+void GlPass::measure(const MethodInfo& method, Stats& stats) { gl::measure(state_->renderer, method, state_->options, stats); }
 
 }  // namespace copeel::csg

@@ -12,12 +12,14 @@ namespace copeel::csg {
 class GlPass {
  public:
   // Throws Error{Machine}: no GL, or not in this build. The arguments live longer.
-  GlPass(const Scene& scene, const PlaneClasses& planes, const GateForest& forest, InsideRule rule);
+  GlPass(const Scene& scene, const PlaneClasses& planes, const GateForest& forest, InsideRule rule, const MethodOptions& options);
   ~GlPass();
 
   // `alpha` and `context` as CsgFold's. Throws Error{Machine}: the fold's state needs more memory than there is.
   void draw(const View& view, const EyeWinding& eye, CsgFold::Alpha alpha, const void* context, const MethodInfo& method,
-            const MethodOptions& options, PixelSink& sink, Stats& stats);
+            PixelSink& sink, Stats& stats);
+  // Counts what the method delivers of the last view (core/gl/measure.h).
+  void measure(const MethodInfo& method, Stats& stats);
 
  private:
   struct State;

@@ -115,6 +115,7 @@ void Renderer::State::prepare() {
   look = std::make_unique<Look>(model, forest, options);
   findSmallClosedMeshes();
   stats.method = options.method;
+  stats.backend = findMethod(options.method)->backend;
   stats.triangles = scene.primitiveCount();
   stats.leaves = model.leaves.size();
   stats.planeClasses = planes.classes().size();
@@ -171,9 +172,9 @@ void Renderer::State::drawPass(const View& view, PixelSink& sink) {
   look->setView(planes, view);
 #if COPEEL_GL
   if (const MethodInfo& method = *findMethod(options.method); method.draw) {
-    if (!glPass) glPass = std::make_unique<GlPass>(scene, planes, forest, options.inside);
+    if (!glPass) glPass = std::make_unique<GlPass>(scene, planes, forest, options.inside, options.methodOptions);
     const EyeWinding eye = windingAtEye(view, cpu::project(scene, view).reachesEye);
-    return glPass->draw(view, eye, alphaOfLook, look.get(), method, options.methodOptions, sink, stats);
+    return glPass->draw(view, eye, alphaOfLook, look.get(), method, sink, stats);
   }
 #endif
   ++stats.passes;
@@ -278,6 +279,12 @@ Renderer::~Renderer() = default;
 
 const Box& Renderer::bounds() const { return state_->bounds; }
 const Stats& Renderer::stats() const { return state_->stats; }
+
+void Renderer::measure() {
+#if COPEEL_GL
+  if (state_->glPass) state_->glPass->measure(*findMethod(state_->options.method), state_->stats);
+#endif
+}
 
 Frame Renderer::draw(const View& view) {
   State& state = *state_;

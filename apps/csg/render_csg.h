@@ -65,6 +65,7 @@ class Renderer {
   const Box& bounds() const;
   Frame draw(const View& view);
   const Stats& stats() const;      // of preparation and the last frame
+  void measure();                  // counts the last frame's fragments, where drawing it did not (the gl back end)
 
  private:
   struct State;

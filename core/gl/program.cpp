@@ -106,11 +106,16 @@ Program::Program(const std::string& computePath, const Defines& defines) : name_
 }
 
 const Program& Programs::find(const std::string& vertexPath, const std::string& fragmentPath, const Defines& defines) {
-  std::string key = vertexPath + '|' + fragmentPath;
-  for (const auto& [name, value] : defines) key += '|' + name + '=' + value;
-  const auto found = programs_.find(key);
+  const Made made{vertexPath, fragmentPath, defines};
+  const auto found = programs_.find(made);
   if (found != programs_.end()) return found->second;
-  return programs_.emplace(key, fragmentPath.empty() ? Program(vertexPath, defines) : Program(vertexPath, fragmentPath, defines)).first->second;
+  return programs_.emplace(made, fragmentPath.empty() ? Program(vertexPath, defines) : Program(vertexPath, fragmentPath, defines)).first->second;
+}
+
+std::vector<Programs::Made> Programs::all() const {
+  std::vector<Made> all;
+  for (const auto& [made, program] : programs_) all.push_back(made);
+  return all;
 }
 
 }  // namespace copeel::gl

@@ -44,8 +44,16 @@ class Programs {
   // With an empty fragmentPath, vertexPath is a compute shader's.
   const Program& find(const std::string& vertexPath, const std::string& fragmentPath, const Defines& defines);
 
+  // What each program was made of, for tests that give it to another compiler.
+  struct Made {
+    std::string vertexPath, fragmentPath;
+    Defines defines;
+    friend auto operator<=>(const Made&, const Made&) = default;
+  };
+  std::vector<Made> all() const;
+
  private:
-  std::map<std::string, Program> programs_;
+  std::map<Made, Program> programs_;
 };
 
 }  // namespace copeel::gl

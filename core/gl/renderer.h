@@ -32,6 +32,7 @@ class Renderer {
   FrameCounts draw(DrawMethod method, const MethodOptions& options, const std::function<void(Frame&)>& before = {});
   std::vector<std::uint32_t> result() const { return frame_.result(); }   // of the fold
   Frame& frame() { return frame_; }
+  const Programs& programs() const { return programs_; }
 
  private:
   const Scene& scene_;

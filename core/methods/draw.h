@@ -12,6 +12,7 @@ namespace copeel {
 struct MethodOptions {
   std::uint32_t k = 8;                       // buffer length where the method has one: fragments
   std::uint64_t memoryBytes = 0;             // the method's buffers together; 0: no limit
+  bool hardwareDepth = false;                // --depth-source hardware: the rasterizer's depth, as in the papers
   bool cull = false;                         // +cull: pass over objects that are wholly peeled (2013, section 3.3)
   bool occupancy = false;                    // +occupancy: occupancy maps (2015)
 };

@@ -1,6 +1,8 @@
 // One line a method.
 #include "core/methods/method.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #if COPEEL_GL
 #include "core/methods/methods_gl.h"
@@ -27,6 +29,22 @@ const MethodInfo* findMethod(std::string_view name) {
     if (method.name == name) return &method;
   }
   return nullptr;
+}
+
+std::string parseMethod(std::string_view text, MethodOptions& options) {
+  std::string_view rest = text.substr(std::min(text.find('+'), text.size()));
+  const std::string name(text.substr(0, text.size() - rest.size()));
+  const MethodInfo* method = findMethod(name);
+  if (!method && name != "auto") failUsage("no method '{}' (see copeel methods)", name);
+  while (!rest.empty()) {
+    const std::string_view modifier = rest.substr(0, rest.find('+', 1));
+    rest.remove_prefix(modifier.size());
+    if (!method || method->modifiers.find(modifier) == std::string_view::npos || modifier.size() < 2) {
+      failUsage("--method {}: {} does not take {}", text, name, modifier);
+    }
+    (modifier == "+cull" ? options.cull : options.occupancy) = true;
+  }
+  return name;
 }
 
 const MethodInfo& chooseMethod(std::string_view backend, std::string_view name) {

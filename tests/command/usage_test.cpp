@@ -38,6 +38,12 @@ TEST_F(Usage, RefusedWithOneLine) {
       {"csg", "part.csg", "--projection", "q"},
       {"csg", "part.csg", "--backend", "cuda"},
       {"csg", "part.csg", "--backend", "cpu|gl"},
+      {"csg", "part.csg", "--backend", "cpu", "--method", "ll"},
+      {"csg", "part.csg", "--backend", "gl", "--method", "tile"},
+      {"csg", "part.csg", "--method", "tile+cull"},
+      {"csg", "part.csg", "--method", "ll+"},
+      {"csg", "part.csg", "--buffer-length", "0"},
+      {"csg", "part.csg", "--depth-source", "float"},
       {"csg", "part.csg", "--method", "nonsense"},
       {"csg", "part.csg", "--threads", "0"},
       {"csg", "part.csg", "--threads", "1.5"},
@@ -79,7 +85,6 @@ TEST_F(Usage, WhatIsNotBuiltSaysSo) {
     expectFailure(outcome, 3);
     EXPECT_NE(outcome.standardError.find("not built in this version"), std::string::npos);
   }
-  expectFailure(run({"csg", "part.csg", "--backend", "gl"}), 3);
 }
 
 TEST_F(Usage, MethodsAsTableAndJson) {
