@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -16,6 +17,7 @@
 #include "apps/command/progress.h"
 #include "apps/csg/command_options.h"
 #include "apps/csg/scad_camera.h"
+#include "apps/csg/scad_export.h"
 #include "core/error.h"
 #include "core/image/write_image.h"
 #include "core/output_file.h"
@@ -67,12 +69,14 @@ Model readMeshFiles(const CommandOptions& options, const std::vector<MeshArgumen
   return model;
 }
 
-Model readModel(CommandOptions& options, InputKind kind, const std::vector<MeshArgument>& files) {
+// openscad is left at its way out: `scad` is to be finished before the model is believed.
+Model readModel(CommandOptions& options, InputKind kind, const std::vector<MeshArgument>& files, std::optional<ScadExport>& scad) {
   ReadOptions read;
   read.definitions = options.definitions;
   if (kind == InputKind::Meshes) return readMeshFiles(options, files);
   if (kind == InputKind::Csg) return readCsg(files[0].path, read);
-  Model model = readScad(files[0].path, read);
+  scad.emplace(files[0].path, read);
+  Model model = scad->model();
   applyViewVariables(files[0].path, read, model, options.common.camera);
   return model;
 }
@@ -127,11 +131,16 @@ void run(CommandOptions options) {
 
   auto progress = std::make_unique<Progress>(!common.quiet);
   progress->phase("reading " + inputs[0]);
-  const Model model = readModel(options, kind, files);
+  std::optional<ScadExport> scad;
+  Model model = readModel(options, kind, files, scad);
   const double loadMs = millisecondsSince(start);
   limitMemory(common.memoryBytes);
   progress->phase("drawing " + inputs[0]);
   drawing = draw(model, options);
+  if (scad) {
+    const std::vector<std::string> more = scad->finish();
+    model.warnings.insert(model.warnings.end(), more.begin(), more.end());
+  }
   progress.reset();
   if (!common.quiet) {
     for (const std::string& warning : model.warnings) fmt::print(stderr, "copeel: warning: {}\n", warning);
