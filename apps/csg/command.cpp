@@ -21,6 +21,7 @@
 #include "core/error.h"
 #include "core/image/write_image.h"
 #include "core/output_file.h"
+#include "core/parallel.h"
 
 namespace copeel::csg {
 namespace {
@@ -149,7 +150,7 @@ void run(CommandOptions options) {
   drawing.stats.loadMs = loadMs;
   drawing.stats.memoryBytes = peakMemoryBytes();
   drawing.stats.totalMs = millisecondsSince(start);
-  outputs.write();
+  Threads(common.threads).execute([&] { outputs.write(); });
 }
 
 }  // namespace
