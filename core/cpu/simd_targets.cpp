@@ -41,7 +41,11 @@ std::int64_t SupportedTargets() {
   return targets ? targets : HWY_STATIC_TARGET;
 }
 
-void DisableTargets(std::int64_t targets) { disabledTargets = targets; }
+// The next dispatch asks again.
+void DisableTargets(std::int64_t targets) {
+  disabledTargets = targets;
+  GetChosenTarget().DeInit();
+}
 
 ChosenTarget& GetChosenTarget() {
   static ChosenTarget chosen;
