@@ -3,7 +3,7 @@
 // the file depends on the clock, the machine or its threads, so equal images are equal files.
 // Based on: ISO/IEC 15948 (PNG); RFC 1950 (zlib), RFC 1951 (deflate). Adler. pigz, 2007 (strips that end on a byte).
 // Cost: a pass over the pixels for the colours, one for the strips; memory of a strip for each thread and of the file.
-// Reached at 1024 x 768, two threads: 0.9 ms for 10 KB where libpng took 3.4 ms for 21 KB (flat facets), 2.7 of 5.6 ms (many colours).
+// At 1024 x 768, two threads, flat facets: 1.2 ms and 10 KB, where libpng takes 3 to 4 ms and 21 KB.
 #include <zlib.h>
 
 #include <algorithm>
