@@ -23,40 +23,44 @@ using U64 = hn::CappedTag<std::uint64_t, kBlockSize>;
 alignas(64) inline constexpr double kIota[kBlockSize] = {0, 1, 2, 3, 4, 5, 6, 7};
 alignas(64) inline constexpr std::int32_t kIotaInt[kBlockSize] = {0, 1, 2, 3, 4, 5, 6, 7};
 
+// Samples that one edge at least leaves outside the triangle are cut off from `within`, the block's samples inside the triangle's bounds.
+// x, y: the block's first pixel in the tile; rows [y0, y1] of the block have samples.
+HWY_INLINE HWY_ATTR std::uint64_t cutByEdges(const TriangleSetup& t, int x, int y, int y0, int y1, std::uint64_t within) {
+  const I32 d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto b0 = hn::Set(d, t.b[0]), b1 = hn::Set(d, t.b[1]), b2 = hn::Set(d, t.b[2]);
+  std::uint64_t outside = 0;
+  for (std::size_t lane = 0; lane < kBlockSize; lane += lanes) {
+    const auto iota = hn::Load(d, kIotaInt + lane);
+    const auto firstRow = [&](int i) HWY_ATTR {
+      return hn::Add(hn::Set(d, t.a[i] * x + t.b[i] * (y + y0) + t.c[i]), hn::Mul(hn::Set(d, t.a[i]), iota));
+    };
+    auto e0 = firstRow(0), e1 = firstRow(1), e2 = firstRow(2);
+    for (int row = y0; row <= y1; ++row) {
+      std::uint8_t byte[8] = {};
+      hn::StoreMaskBits(d, hn::Lt(hn::Or(hn::Or(e0, e1), e2), hn::Zero(d)), byte);
+      outside |= std::uint64_t{byte[0]} << (row * kBlockSize + lane);
+      e0 = hn::Add(e0, b0), e1 = hn::Add(e1, b1), e2 = hn::Add(e2, b2);
+    }
+  }
+  return within & ~outside;
+}
+
 // Bit x of row y (bit 8·y + x) is set where all three edges are not negative. x, y: the block's first pixel in the tile.
 HWY_INLINE HWY_ATTR std::uint64_t blockCoverage(const TriangleSetup& t, int x, int y) {
-  std::int32_t e[3];
   bool full = true;
   for (int i = 0; i < 3; ++i) {
-    e[i] = t.a[i] * x + t.b[i] * y + t.c[i];
+    const std::int32_t e = t.a[i] * x + t.b[i] * y + t.c[i];
     const std::int32_t across = (kBlockSize - 1) * t.a[i], down = (kBlockSize - 1) * t.b[i];
-    if (e[i] + (across > 0 ? across : 0) + (down > 0 ? down : 0) < 0) return 0;
-    full &= e[i] + (across < 0 ? across : 0) + (down < 0 ? down : 0) >= 0;
+    if (e + (across > 0 ? across : 0) + (down > 0 ? down : 0) < 0) return 0;
+    full &= e + (across < 0 ? across : 0) + (down < 0 ? down : 0) >= 0;
   }
   // Edges that the triangle's bounds make redundant were dropped, so the bounds count.
   const int x0 = t.x0 > x ? t.x0 - x : 0, x1 = t.x1 - x < kBlockSize - 1 ? t.x1 - x : kBlockSize - 1;
   const int y0 = t.y0 > y ? t.y0 - y : 0, y1 = t.y1 - y < kBlockSize - 1 ? t.y1 - y : kBlockSize - 1;
   const std::uint64_t columns = ((0xFFull >> (7 - x1 + x0)) << x0) * 0x0101010101010101ull;
   const std::uint64_t rows = (~std::uint64_t{0} >> (kBlockSize * (7 - y1 + y0))) << (kBlockSize * y0);
-  if (full) return columns & rows;
-  const I32 d;
-  const std::size_t lanes = hn::Lanes(d);
-  std::uint64_t bits = 0;
-  for (std::size_t lane = 0; lane < kBlockSize; lane += lanes) {
-    const auto iota = hn::Load(d, kIotaInt + lane);
-    auto e0 = hn::Add(hn::Set(d, e[0] + t.b[0] * y0), hn::Mul(hn::Set(d, t.a[0]), iota));
-    auto e1 = hn::Add(hn::Set(d, e[1] + t.b[1] * y0), hn::Mul(hn::Set(d, t.a[1]), iota));
-    auto e2 = hn::Add(hn::Set(d, e[2] + t.b[2] * y0), hn::Mul(hn::Set(d, t.a[2]), iota));
-    const auto b0 = hn::Set(d, t.b[0]), b1 = hn::Set(d, t.b[1]), b2 = hn::Set(d, t.b[2]);
-    for (int row = y0; row <= y1; ++row) {
-      const auto outside = hn::Lt(hn::Or(hn::Or(e0, e1), e2), hn::Zero(d));
-      std::uint8_t byte[8] = {};
-      hn::StoreMaskBits(d, hn::Not(outside), byte);
-      bits |= (std::uint64_t{byte[0]} & ((1u << lanes) - 1)) << (row * kBlockSize + lane);
-      e0 = hn::Add(e0, b0), e1 = hn::Add(e1, b1), e2 = hn::Add(e2, b2);
-    }
-  }
-  return bits & columns;
+  return full ? columns & rows : cutByEdges(t, x, y, y0, y1, columns & rows);
 }
 
 // The keys of the eight pixels of a block's row. x, y: the row's first pixel in the tile.
@@ -72,6 +76,46 @@ HWY_INLINE HWY_ATTR void rowKeys(const TriangleSetup& t, int x, int y, KeyFormat
     // The mantissa of 2^52 + n is n: shifted up it loses exponent and sign, shifted back it leaves the two clear bits of a key.
     const auto bits = hn::ShiftRight<64 - kKeyBits>(hn::ShiftLeftSame(hn::BitCast(u, depth), 64 - format.depthBits));
     hn::Store(hn::Or(bits, slot), u, keys + lane);
+  }
+}
+
+// A triangle whose bounds hold no more samples than a block is taken sample by sample, whatever blocks it lies in.
+HWY_INLINE bool isSmall(const TriangleSetup& t) { return (t.x1 - t.x0 + 1) * (t.y1 - t.y0 + 1) <= kBlockPixels; }
+
+// The blocks that the bounds touch, a bit for each.
+HWY_INLINE std::uint32_t touchedBlocks(const TriangleSetup& t) {
+  const int bx0 = t.x0 / kBlockSize, bx1 = t.x1 / kBlockSize, by0 = t.y0 / kBlockSize, by1 = t.y1 / kBlockSize;
+  const std::uint32_t row = ((2u << bx1) - (1u << bx0)) * 0x1111u;
+  return row & ((0x10u << (kBlocksPerSide * by1)) - (1u << (kBlocksPerSide * by0)));
+}
+
+HWY_INLINE std::uint32_t blocksOf(const BlockRect& rect) {
+  std::uint32_t blocks = 0;
+  for (int by = rect.by0; by < rect.by1; ++by) {
+    for (int bx = rect.bx0; bx < rect.bx1; ++bx) blocks |= 1u << (by * kBlocksPerSide + bx);
+  }
+  return blocks;
+}
+
+// `visit(block, pixel, key)` for the samples of a small triangle. The keys come of the same operations as in rowKeys.
+template <class Visit>
+HWY_INLINE HWY_ATTR void forEachSample(const TriangleSetup& t, KeyFormat format, Visit visit) {
+  // Windows of 8×8 samples start at the bounds' corner: most small triangles need but one, where they would straddle two to four blocks.
+  for (int y = t.y0; y <= t.y1; y += kBlockSize) {
+    const int rows = std::min(t.y1 - y, kBlockSize - 1);
+    for (int x = t.x0; x <= t.x1; x += kBlockSize) {
+      const int columns = std::min(t.x1 - x, kBlockSize - 1);
+      const std::uint64_t within = (0x0101010101010101ull * (0xFFu >> (7 - columns))) & (~std::uint64_t{0} >> (kBlockSize * (7 - rows)));
+      for (std::uint64_t covered = cutByEdges(t, x, y, 0, rows, within); covered; covered &= covered - 1) {
+        const int bit = __builtin_ctzll(covered), px = x + bit % kBlockSize, py = y + bit / kBlockSize;
+        const double affine = t.da * static_cast<double>(px) + (t.db * static_cast<double>(py) + t.dc);
+        const double depth = std::min(std::max(affine, t.lo), t.hi);
+        std::uint64_t bits;
+        __builtin_memcpy(&bits, &depth, sizeof bits);
+        visit(py / kBlockSize * kBlocksPerSide + px / kBlockSize, py % kBlockSize * kBlockSize + px % kBlockSize,
+              (bits << (64 - format.depthBits)) >> (64 - kKeyBits) | t.slot);
+      }
+    }
   }
 }
 
@@ -95,10 +139,30 @@ HWY_INLINE HWY_ATTR bool sameCounts(const std::uint32_t* counts) {
   return pair[0] == first && pair[1] == first && pair[2] == first && pair[3] == first;
 }
 
+// One more layer in each of the blocks.
+HWY_INLINE bool makeRoom(FragmentGrid& grid, std::uint32_t blocks) {
+  for (; blocks; blocks &= blocks - 1) {
+    FragmentGrid::Block& block = grid.block(__builtin_ctz(blocks));
+    if (block.used == block.capacity && !grid.grow(block)) return false;
+    ++block.used;
+  }
+  return true;
+}
+
 HWY_ATTR bool CollectFragments(const TriangleSetup* triangles, std::size_t count, KeyFormat format, const BlockRect& rect,
                                std::uint32_t finished, FragmentGrid& grid) {
+  const std::uint32_t open = blocksOf(rect) & ~finished;
   for (std::size_t i = 0; i < count; ++i) {
     const TriangleSetup& t = triangles[i];
+    const std::uint32_t touched = touchedBlocks(t);
+    if (isSmall(t) && !(touched & ~open)) {
+      if (!makeRoom(grid, touched)) return false;
+      forEachSample(t, format, [&](int index, int pixel, std::uint64_t key) HWY_ATTR {
+        FragmentGrid::Block& block = grid.block(index);
+        block.keys[std::size_t{block.counts[pixel]++} * kBlockPixels + pixel] = key;
+      });
+      continue;
+    }
     const bool room = forEachBlock(t, rect, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
       if (finished >> index & 1) return true;
       FragmentGrid::Block& block = grid.block(index);
@@ -130,8 +194,16 @@ HWY_ATTR bool CollectFragments(const TriangleSetup* triangles, std::size_t count
 
 HWY_ATTR void CollectNearest(const TriangleSetup* triangles, std::size_t count, KeyFormat format, const BlockRect& rect,
                              std::uint64_t* nearest) {
+  const std::uint32_t open = blocksOf(rect);
   for (std::size_t i = 0; i < count; ++i) {
     const TriangleSetup& t = triangles[i];
+    if (isSmall(t) && !(touchedBlocks(t) & ~open)) {
+      forEachSample(t, format, [&](int block, int pixel, std::uint64_t key) HWY_ATTR {
+        std::uint64_t& least = nearest[block * kBlockPixels + pixel];
+        least = std::min(least, key);
+      });
+      continue;
+    }
     forEachBlock(t, rect, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
       for (int row = __builtin_ctzll(covered) / kBlockSize; row < kBlockSize; ++row) {
         const std::uint32_t mask = covered >> (row * kBlockSize) & 0xFF;
