@@ -23,44 +23,40 @@ using U64 = hn::CappedTag<std::uint64_t, kBlockSize>;
 alignas(64) inline constexpr double kIota[kBlockSize] = {0, 1, 2, 3, 4, 5, 6, 7};
 alignas(64) inline constexpr std::int32_t kIotaInt[kBlockSize] = {0, 1, 2, 3, 4, 5, 6, 7};
 
-// Samples that one edge at least leaves outside the triangle are cut off from `within`, the block's samples inside the triangle's bounds.
-// x, y: the block's first pixel in the tile; rows [y0, y1] of the block have samples.
-HWY_INLINE HWY_ATTR std::uint64_t cutByEdges(const TriangleSetup& t, int x, int y, int y0, int y1, std::uint64_t within) {
-  const I32 d;
-  const std::size_t lanes = hn::Lanes(d);
-  const auto b0 = hn::Set(d, t.b[0]), b1 = hn::Set(d, t.b[1]), b2 = hn::Set(d, t.b[2]);
-  std::uint64_t outside = 0;
-  for (std::size_t lane = 0; lane < kBlockSize; lane += lanes) {
-    const auto iota = hn::Load(d, kIotaInt + lane);
-    const auto firstRow = [&](int i) HWY_ATTR {
-      return hn::Add(hn::Set(d, t.a[i] * x + t.b[i] * (y + y0) + t.c[i]), hn::Mul(hn::Set(d, t.a[i]), iota));
-    };
-    auto e0 = firstRow(0), e1 = firstRow(1), e2 = firstRow(2);
-    for (int row = y0; row <= y1; ++row) {
-      std::uint8_t byte[8] = {};
-      hn::StoreMaskBits(d, hn::Lt(hn::Or(hn::Or(e0, e1), e2), hn::Zero(d)), byte);
-      outside |= std::uint64_t{byte[0]} << (row * kBlockSize + lane);
-      e0 = hn::Add(e0, b0), e1 = hn::Add(e1, b1), e2 = hn::Add(e2, b2);
-    }
-  }
-  return within & ~outside;
-}
-
 // Bit x of row y (bit 8·y + x) is set where all three edges are not negative. x, y: the block's first pixel in the tile.
 HWY_INLINE HWY_ATTR std::uint64_t blockCoverage(const TriangleSetup& t, int x, int y) {
+  std::int32_t e[3];
   bool full = true;
   for (int i = 0; i < 3; ++i) {
-    const std::int32_t e = t.a[i] * x + t.b[i] * y + t.c[i];
+    e[i] = t.a[i] * x + t.b[i] * y + t.c[i];
     const std::int32_t across = (kBlockSize - 1) * t.a[i], down = (kBlockSize - 1) * t.b[i];
-    if (e + (across > 0 ? across : 0) + (down > 0 ? down : 0) < 0) return 0;
-    full &= e + (across < 0 ? across : 0) + (down < 0 ? down : 0) >= 0;
+    if (e[i] + (across > 0 ? across : 0) + (down > 0 ? down : 0) < 0) return 0;
+    full &= e[i] + (across < 0 ? across : 0) + (down < 0 ? down : 0) >= 0;
   }
   // Edges that the triangle's bounds make redundant were dropped, so the bounds count.
   const int x0 = t.x0 > x ? t.x0 - x : 0, x1 = t.x1 - x < kBlockSize - 1 ? t.x1 - x : kBlockSize - 1;
   const int y0 = t.y0 > y ? t.y0 - y : 0, y1 = t.y1 - y < kBlockSize - 1 ? t.y1 - y : kBlockSize - 1;
   const std::uint64_t columns = ((0xFFull >> (7 - x1 + x0)) << x0) * 0x0101010101010101ull;
   const std::uint64_t rows = (~std::uint64_t{0} >> (kBlockSize * (7 - y1 + y0))) << (kBlockSize * y0);
-  return full ? columns & rows : cutByEdges(t, x, y, y0, y1, columns & rows);
+  if (full) return columns & rows;
+  const I32 d;
+  const std::size_t lanes = hn::Lanes(d);
+  std::uint64_t bits = 0;
+  for (std::size_t lane = 0; lane < kBlockSize; lane += lanes) {
+    const auto iota = hn::Load(d, kIotaInt + lane);
+    auto e0 = hn::Add(hn::Set(d, e[0] + t.b[0] * y0), hn::Mul(hn::Set(d, t.a[0]), iota));
+    auto e1 = hn::Add(hn::Set(d, e[1] + t.b[1] * y0), hn::Mul(hn::Set(d, t.a[1]), iota));
+    auto e2 = hn::Add(hn::Set(d, e[2] + t.b[2] * y0), hn::Mul(hn::Set(d, t.a[2]), iota));
+    const auto b0 = hn::Set(d, t.b[0]), b1 = hn::Set(d, t.b[1]), b2 = hn::Set(d, t.b[2]);
+    for (int row = y0; row <= y1; ++row) {
+      const auto outside = hn::Lt(hn::Or(hn::Or(e0, e1), e2), hn::Zero(d));
+      std::uint8_t byte[8] = {};
+      hn::StoreMaskBits(d, hn::Not(outside), byte);
+      bits |= (std::uint64_t{byte[0]} & ((1u << lanes) - 1)) << (row * kBlockSize + lane);
+      e0 = hn::Add(e0, b0), e1 = hn::Add(e1, b1), e2 = hn::Add(e2, b2);
+    }
+  }
+  return bits & columns;
 }
 
 // The keys of the eight pixels of a block's row. x, y: the row's first pixel in the tile.
@@ -97,17 +93,52 @@ HWY_INLINE std::uint32_t blocksOf(const BlockRect& rect) {
   return blocks;
 }
 
+// A window of 64 samples, 2^log to a row. Bit i stands for sample (x + i mod 2^log, y + i / 2^log).
+struct Window {
+  int x, y, log;
+  int columns, rows;   // of samples inside the triangle's bounds
+};
+
+HWY_INLINE HWY_ATTR std::uint64_t windowCoverage(const TriangleSetup& t, const Window& w) {
+  const I32 d;
+  const int lanes = static_cast<int>(hn::Lanes(d)), samples = w.rows << w.log;
+  std::uint64_t outside = 0;
+  for (int lane = 0; lane < kBlockSize; lane += lanes) {
+    const auto index = hn::Load(d, kIotaInt + lane);
+    const auto column = hn::And(index, hn::Set(d, (1 << w.log) - 1)), row = hn::ShiftRightSame(index, w.log);
+    const auto first = [&](int i) HWY_ATTR {
+      const auto corner = hn::Set(d, t.a[i] * w.x + t.b[i] * w.y + t.c[i]);
+      return hn::Add(corner, hn::Add(hn::Mul(hn::Set(d, t.a[i]), column), hn::Mul(hn::Set(d, t.b[i]), row)));
+    };
+    auto e0 = first(0), e1 = first(1), e2 = first(2);
+    // Eight samples on.
+    const int rowsOn = kBlockSize >> w.log;
+    const auto s0 = hn::Set(d, t.b[0] * rowsOn), s1 = hn::Set(d, t.b[1] * rowsOn), s2 = hn::Set(d, t.b[2] * rowsOn);
+    for (int i = 0; i < samples; i += kBlockSize) {
+      std::uint8_t byte[8] = {};
+      hn::StoreMaskBits(d, hn::Lt(hn::Or(hn::Or(e0, e1), e2), hn::Zero(d)), byte);
+      outside |= std::uint64_t{byte[0]} << (i + lane);
+      e0 = hn::Add(e0, s0), e1 = hn::Add(e1, s1), e2 = hn::Add(e2, s2);
+    }
+  }
+  // Edges that the triangle's bounds make redundant were dropped, so the bounds count.
+  constexpr std::uint64_t kEveryRow[] = {~0ull, 0x5555555555555555ull, 0x1111111111111111ull, 0x0101010101010101ull};
+  const std::uint64_t within = (kEveryRow[w.log] * ((1u << w.columns) - 1)) & (~std::uint64_t{0} >> (kBlockPixels - samples));
+  return within & ~outside;
+}
+
 // `visit(block, pixel, key)` for the samples of a small triangle. The keys come of the same operations as in rowKeys.
 template <class Visit>
 HWY_INLINE HWY_ATTR void forEachSample(const TriangleSetup& t, KeyFormat format, Visit visit) {
-  // Windows of 8×8 samples start at the bounds' corner: most small triangles need but one, where they would straddle two to four blocks.
-  for (int y = t.y0; y <= t.y1; y += kBlockSize) {
-    const int rows = std::min(t.y1 - y, kBlockSize - 1);
-    for (int x = t.x0; x <= t.x1; x += kBlockSize) {
-      const int columns = std::min(t.x1 - x, kBlockSize - 1);
-      const std::uint64_t within = (0x0101010101010101ull * (0xFFu >> (7 - columns))) & (~std::uint64_t{0} >> (kBlockSize * (7 - rows)));
-      for (std::uint64_t covered = cutByEdges(t, x, y, 0, rows, within); covered; covered &= covered - 1) {
-        const int bit = __builtin_ctzll(covered), px = x + bit % kBlockSize, py = y + bit / kBlockSize;
+  // A window starts at the bounds' corner and has their shape: nearly every small triangle needs but one, where it would straddle two to
+  // four blocks. One of up to 8 columns has 8·8 / columns rows at most, so that the windows of a column are never more than two.
+  const int width = t.x1 - t.x0 + 1, log = width > 4 ? 3 : width > 2 ? 2 : width - 1;
+  const int mostColumns = 1 << log, mostRows = kBlockPixels >> log;
+  for (int y = t.y0; y <= t.y1; y += mostRows) {
+    for (int x = t.x0; x <= t.x1; x += mostColumns) {
+      const Window w{x, y, log, std::min(t.x1 - x + 1, mostColumns), std::min(t.y1 - y + 1, mostRows)};
+      for (std::uint64_t covered = windowCoverage(t, w); covered; covered &= covered - 1) {
+        const int bit = __builtin_ctzll(covered), px = x + (bit & (mostColumns - 1)), py = y + (bit >> log);
         const double affine = t.da * static_cast<double>(px) + (t.db * static_cast<double>(py) + t.dc);
         const double depth = std::min(std::max(affine, t.lo), t.hi);
         std::uint64_t bits;
