@@ -86,6 +86,13 @@ HWY_ATTR void SetUpEdges(EdgeBatch& batch, int count, const TileFrame& tile) {
     hn::Store(hn::DemoteTo(whole, bounds.x1), whole, batch.x1 + i);
     hn::Store(hn::DemoteTo(whole, bounds.y1), whole, batch.y1 + i);
 
+    // Its area, but no more than half of the bounds.
+    const Lanes half = hn::Set(d, 0.5), one = hn::Set(d, 1);
+    const Lanes width = hn::Add(hn::Sub(bounds.x1, bounds.x0), one), height = hn::Add(hn::Sub(bounds.y1, bounds.y0), one);
+    const Lanes pixels = hn::Mul(hn::Abs(area), hn::Set(d, 0.5 / (std::int64_t{1} << (2 * tile.bits))));
+    const Lanes samples = hn::Min(pixels, hn::Mul(half, hn::Mul(width, height)));
+    hn::Store(hn::DemoteTo(whole, hn::Ceil(samples)), whole, batch.samples + i);
+
     // Turned alike, the inner side of every edge is the positive one.
     const auto front = hn::Lt(area, zero);
     const Corner q{hn::IfThenElse(front, third.x, second.x), hn::IfThenElse(front, third.y, second.y)};
@@ -94,7 +101,7 @@ HWY_ATTR void SetUpEdges(EdgeBatch& batch, int count, const TileFrame& tile) {
     const auto pq = setUpEdge(p, q, bounds, tile, batch.a[0] + i, batch.b[0] + i, batch.c[0] + i);
     const auto qr = setUpEdge(q, r, bounds, tile, batch.a[1] + i, batch.b[1] + i, batch.c[1] + i);
     const auto rp = setUpEdge(r, p, bounds, tile, batch.a[2] + i, batch.b[2] + i, batch.c[2] + i);
-    const Lanes side = hn::IfThenElse(front, hn::Set(d, 1), hn::Set(d, -1));
+    const Lanes side = hn::IfThenElse(front, one, hn::Neg(one));
     hn::Store(hn::DemoteTo(whole, hn::IfThenElseZero(hn::And(hn::And(holds, pq), hn::And(qr, rp)), side)), whole, batch.side + i);
   }
 }

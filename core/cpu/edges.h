@@ -18,6 +18,8 @@ struct EdgeBatch {
   alignas(64) std::int32_t side[kEdgeBatch];
   // Out: samples that the bounds leave within the tile, inclusive, from its upper left one.
   alignas(64) std::int32_t x0[kEdgeBatch], y0[kEdgeBatch], x1[kEdgeBatch], y1[kEdgeBatch];
+  // Out: about how many samples of the tile it covers.
+  alignas(64) std::int32_t samples[kEdgeBatch];
   // Out: edge i is a·x + b·y + c >= 0 on the inner side (TriangleSetup); all zero for an edge that holds all of the bounds on its inner side.
   alignas(64) std::int32_t a[3][kEdgeBatch], b[3][kEdgeBatch], c[3][kEdgeBatch];
 };

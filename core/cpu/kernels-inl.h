@@ -122,7 +122,7 @@ HWY_INLINE HWY_ATTR std::uint64_t windowCoverage(const TriangleSetup& t, const W
     }
   }
   // Edges that the triangle's bounds make redundant were dropped, so the bounds count.
-  constexpr std::uint64_t kEveryRow[] = {~0ull, 0x5555555555555555ull, 0x1111111111111111ull, 0x0101010101010101ull};
+  static constexpr std::uint64_t kEveryRow[] = {~0ull, 0x5555555555555555ull, 0x1111111111111111ull, 0x0101010101010101ull};
   const std::uint64_t within = (kEveryRow[w.log] * ((1u << w.columns) - 1)) & (~std::uint64_t{0} >> (kBlockPixels - samples));
   return within & ~outside;
 }

@@ -32,9 +32,6 @@ std::uint32_t primitiveOf(const Frame& frame, std::uint32_t reference) {
   return reference < kPrimitiveLimit ? reference : frame.bins.clipped[reference - kPrimitiveLimit].primitive;
 }
 
-// Samples in the bounds of a triangle.
-int boundsOf(const TriangleSetup& t) { return (t.x1 - t.x0 + 1) * (t.y1 - t.y0 + 1); }
-
 }  // namespace
 
 Frame::Frame(const Scene& scene_, const PlaneClasses& planes_, const View& view_)
@@ -73,6 +70,7 @@ void Tile::setUp(const Frame& frame) {
     if (!object.keep) continue;
     object.least = std::numeric_limits<double>::infinity();
     object.most = -object.least;
+    object.mirrored = mirrors(frame.scene.objects()[object.object].worldFromObject);
     // Batches run on from object to object.
     for (std::uint32_t k = object.firstReference; k < object.lastReference; ++k) {
       gather(frame, i, references_[k], count++);
@@ -98,7 +96,10 @@ void Tile::gather(const Frame& frame, std::uint32_t objectIndex, std::uint32_t r
     p = piece.corners[0], q = piece.corners[1], r = piece.corners[2];
   }
   edges_.px[at] = p.x, edges_.py[at] = p.y, edges_.qx[at] = q.x, edges_.qy[at] = q.y, edges_.rx[at] = r.x, edges_.ry[at] = r.y;
-  gathered_[at] = {objectIndex, triangle};
+  // The class's plane is wanted soon, and rarely lies near the last one.
+  const std::uint32_t planeClass = frame.planes.classOf(object, frame.scene.objects()[object].mesh->facetOf(triangle));
+  __builtin_prefetch(&frame.depths[planeClass]);
+  gathered_[at] = {objectIndex, frame.scene.firstPrimitive(object) + triangle, planeClass};
 }
 
 void Tile::setUpBatch(const Frame& frame, int count) {
@@ -106,31 +107,17 @@ void Tile::setUpBatch(const Frame& frame, int count) {
   // The tile's first sample, in the depth planes' coordinates.
   const double u = x0 + 0.5 + frame.view.offset.x - frame.view.width * 0.5;
   const double v = y0 + 0.5 + frame.view.offset.y - frame.view.height * 0.5;
-  std::uint32_t last = ~0u;
-  const std::uint32_t* classes = nullptr;
-  const Mesh* mesh = nullptr;
-  std::uint32_t firstPrimitive = 0;
-  int front = 1;
   for (int i = 0; i < count; ++i) {
     if (edges_.side[i] == 0) continue;
     const Gathered& from = gathered_[i];
     TileObject& object = objects[from.object];
-    if (from.object != last) {
-      const Object& placed = frame.scene.objects()[object.object];
-      last = from.object;
-      mesh = placed.mesh.get();
-      classes = frame.planes.classesOfObject(object.object);
-      firstPrimitive = frame.scene.firstPrimitive(object.object);
-      front = mirrors(placed.worldFromObject) ? -1 : 1;
-    }
-    const std::uint32_t planeClass = classes[mesh->facetOf(from.triangle)];
     addEdges(i);
-    addDepth(frame.depths[planeClass], u, v, object);
+    addDepth(frame.depths[from.planeClass], u, v, object);
     TileSlot& slot = slots.emplace_back();
-    slot.primitive = firstPrimitive + from.triangle;
-    slot.planeClass = planeClass;
+    slot.primitive = from.primitive;
+    slot.planeClass = from.planeClass;
     slot.object = from.object;
-    slot.side = front * edges_.side[i];
+    slot.side = object.mirrored ? -edges_.side[i] : edges_.side[i];
   }
 }
 
@@ -138,6 +125,7 @@ void Tile::addEdges(int at) {
   TriangleSetup& t = setups.emplace_back();
   for (int k = 0; k < 3; ++k) t.a[k] = edges_.a[k][at], t.b[k] = edges_.b[k][at], t.c[k] = edges_.c[k][at];
   t.x0 = edges_.x0[at], t.y0 = edges_.y0[at], t.x1 = edges_.x1[at], t.y1 = edges_.y1[at];
+  t.samples = edges_.samples[at];
   t.slot = static_cast<std::uint32_t>(slots.size());
 }
 
@@ -202,17 +190,16 @@ void Tile::scaleDepths(double least, double most, bool decideAllExactly) {
   for (TileSlot& slot : slots) slot.uncertainty = std::max(slot.uncertainty, uncertainty);
 }
 
-// A triangle covers about half of its bounds.
 double Tile::layers() const {
-  double samples = 0;
-  for (const TriangleSetup& t : setups) samples += boundsOf(t);
-  return 0.5 * samples / (width * height);
+  std::int64_t samples = 0;
+  for (const TriangleSetup& t : setups) samples += t.samples;
+  return static_cast<double>(samples) / (width * height);
 }
 
 std::size_t Tile::setupsOfLayers(double layers) const {
-  double samples = 2 * layers * width * height;
+  double samples = layers * width * height;
   std::size_t count = 0;
-  while (count < setups.size() && samples > 0) samples -= boundsOf(setups[count++]);
+  while (count < setups.size() && samples > 0) samples -= setups[count++].samples;
   return count;
 }
 

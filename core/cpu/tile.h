@@ -24,6 +24,7 @@ struct TileObject {
   std::uint32_t object;                     // of the scene
   std::uint32_t firstReference, lastReference;
   bool keep = true;                         // cleared by a fold that has no use for the object in this tile
+  bool mirrored = false;                    // after setUp: its faces are turned inside out
   double least = 0, most = 0;               // after setUp: bounds of its order values in the tile (depth_planes.h)
 };
 
@@ -62,7 +63,7 @@ class Tile {
   std::span<const std::uint32_t> references_;
   struct Gathered {
     std::uint32_t object;                   // index into objects
-    std::uint32_t triangle;                 // of the object's mesh
+    std::uint32_t primitive, planeClass;
   };
   EdgeBatch edges_;
   Gathered gathered_[kEdgeBatch];
