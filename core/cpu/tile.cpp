@@ -1,4 +1,4 @@
-// Tile set-up: exact edge functions, depth functions scaled to keys.
+// Tile set-up: corners are gathered into batches for edges.h, depth functions follow triangle by triangle and are scaled to keys.
 #include "core/cpu/tile.h"
 
 #include <algorithm>
