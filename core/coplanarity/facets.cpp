@@ -84,19 +84,27 @@ FacetPlane planeOf(const Object& object, FacetRange range) {
   result.normal = error < 0.25 ? normal / best : needleNormal(largest);
   if (turnOf(result.normal) < 0) result.normal = -result.normal;
   result.error = std::min(error * 1.001 + 4 * kEps, 1.0);
-  result.area = best;
   result.point = largest.a;
   return result;
 }
 
-FacetExtent extentOf(const Object& object, FacetRange range, const FacetPlane& plane) {
+double doubledArea(const Object& object, std::uint32_t triangle) {
+  double area = 0;
+  forEachPlaced(object, {triangle, triangle + 1}, [&](std::uint32_t, const Corners& corners) {
+    area = glm::length(glm::cross(corners.b - corners.a, corners.c - corners.a));
+  });
+  return area;
+}
+
+FacetExtent extentOf(const Object& object, FacetRange range, const glm::dvec3& normal, const glm::dvec3& point) {
   FacetExtent result;
   double radiusSquared = 0;
   forEachPlaced(object, range, [&](std::uint32_t, const Corners& corners) {
     for (const glm::dvec3& corner : {corners.a, corners.b, corners.c}) {
-      const glm::dvec3 away = corner - plane.point;
-      result.flatness = std::max(result.flatness, std::abs(glm::dot(plane.normal, away)));
+      const glm::dvec3 away = corner - point;
+      result.flatness = std::max(result.flatness, std::abs(glm::dot(normal, away)));
       radiusSquared = std::max(radiusSquared, glm::dot(away, away));
+      result.box.add(corner);
     }
   });
   result.radius = std::sqrt(radiusSquared) * (1 + 4 * kEps);

@@ -24,7 +24,6 @@ struct FacetPlane {
   glm::dvec3 normal{0, 0, 1};   // unit, turned into one half of all directions, so that both sides of a plane have the same
   glm::dvec3 point{0};          // the first corner of its largest triangle
   double error = 0;             // bound of |normal - true normal|
-  double area = 0;              // of its largest triangle, doubled
   std::uint32_t triangle = 0;   // its largest one, within the object
   Box box;
 };
@@ -34,11 +33,14 @@ FacetPlane planeOf(const Object& object, FacetRange range);
 // How unsure the turning of a normal is: near zero it may be turned the other way by rounding.
 double turnOf(const glm::dvec3& normal);
 
+double doubledArea(const Object& object, std::uint32_t triangle);
+
 struct FacetExtent {
   double flatness = 0;   // largest distance of a corner from the facet's own plane
-  double radius = 0;     // largest distance of a corner from the plane's point
+  double radius = 0;     // largest distance of a corner from a point of that plane
+  Box box;
 };
 
-FacetExtent extentOf(const Object& object, FacetRange range, const FacetPlane& plane);
+FacetExtent extentOf(const Object& object, FacetRange range, const glm::dvec3& normal, const glm::dvec3& point);
 
 }  // namespace copeel

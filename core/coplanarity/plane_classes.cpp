@@ -68,30 +68,34 @@ std::uint32_t tieOf(const glm::dvec3& normal, double offset) {
 // What sorting needs of a facet. Large facets first: they know their plane best, and the outcome does not depend on the order of the input.
 struct FacetKey {
   float area;
-  std::uint32_t tie, object, facet;
+  std::uint32_t tie, facet;   // counted through all objects
 
   friend bool operator<(const FacetKey& a, const FacetKey& b) {
-    return std::tuple(-a.area, a.tie, a.object, a.facet) < std::tuple(-b.area, b.tie, b.object, b.facet);
+    return std::tuple(-a.area, a.tie, a.facet) < std::tuple(-b.area, b.tie, b.facet);
   }
 };
 
 // A facet that is to find its class.
 struct Facet {
-  FacetPlane plane;
+  PlaneClass alone;
+  glm::dvec3 point{0};   // the first corner of the representative triangle
   FacetExtent extent;
   FacetRange range{0, 0};
   PlaneCells::Place place = 0;
 };
 
+glm::dvec3 pointOf(const Scene& scene, const PlaneClass& planeClass) {
+  return scene.worldVertex(planeClass.object, scene.objects()[planeClass.object].mesh->triangles[planeClass.triangle].x);
+}
+
 // Every corner within the tolerance of the class's plane. The plane of the facet and its extent mostly tell without looking at the corners.
-bool agrees(const Scene& scene, const Facet& facet, std::uint32_t object, const PlaneClass& planeClass, double tolerance) {
-  const std::uint32_t corner = scene.objects()[planeClass.object].mesh->triangles[planeClass.triangle].x;
-  const glm::dvec3 point = scene.worldVertex(planeClass.object, corner);
-  const FacetPlane& plane = facet.plane;
-  const double at = std::abs(glm::dot(planeClass.normal, plane.point - point));
+bool agrees(const Scene& scene, const Facet& facet, const PlaneClass& planeClass, double tolerance) {
+  const glm::dvec3 point = pointOf(scene, planeClass), normal = facet.alone.normal;
+  const double at = std::abs(glm::dot(planeClass.normal, facet.point - point));
   if (at > tolerance) return false;
-  const glm::dvec3 turn = glm::dot(plane.normal, planeClass.normal) < 0 ? plane.normal + planeClass.normal : plane.normal - planeClass.normal;
+  const glm::dvec3 turn = glm::dot(normal, planeClass.normal) < 0 ? normal + planeClass.normal : normal - planeClass.normal;
   if (at + facet.extent.flatness + glm::length(turn) * facet.extent.radius <= tolerance) return true;
+  const std::uint32_t object = facet.alone.object;
   const Mesh& mesh = *scene.objects()[object].mesh;
   for (std::uint32_t t = facet.range.begin; t < facet.range.end; ++t) {
     for (int k = 0; k < 3; ++k) {
@@ -168,7 +172,7 @@ class PlaneClasses::Former {
       for (std::size_t i = begin; i != end; ++i) {
         const FacetPlane plane = planeOf(scene_.objects()[object], range);
         classes[i] = classOfOne(plane, object);
-        places[i] = cells_.placeOf(plane.normal, offsetOf(plane));
+        places[i] = cells_.placeOf(plane.normal, offsetOf(plane.normal, plane.point));
         if (i + 1 == end) break;
         if (i + 1 == firstFacet_[object + 1]) object = objectOf(i + 1), range.end = 0;
         range = rangeFrom(meshOf(object), range.end, facetOf(object, i + 1));
@@ -176,46 +180,43 @@ class PlaneClasses::Former {
     });
   }
 
-  // The keys of these facets, sorted.
-  std::vector<FacetKey> keysOf(const std::vector<std::uint32_t>& facets) const {
+  // The keys of these facets, sorted. `alone`: the classes that measureAll made.
+  std::vector<FacetKey> keysOf(const std::vector<std::uint32_t>& facets, const PlaneClass* alone) const {
     std::vector<FacetKey> keys(facets.size());
     parallelFor(keys.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i != end; ++i) {
-        const std::uint32_t object = objectOf(facets[i]), facet = facetOf(object, facets[i]);
-        const FacetPlane plane = planeOf(scene_.objects()[object], rangeOf(meshOf(object), facet));
-        keys[i] = {static_cast<float>(plane.area), tieOf(plane.normal, offsetOf(plane)), object, facet};
+        const PlaneClass& facet = alone[facets[i]];
+        const double area = doubledArea(scene_.objects()[facet.object], facet.triangle);
+        keys[i] = {static_cast<float>(area), tieOf(facet.normal, offsetOf(facet.normal, pointOf(scene_, facet))), facets[i]};
       }
     });
     parallelSort(keys.begin(), keys.end(), std::less<>());
     return keys;
   }
 
-  // Classes in the order of their representatives. Facets are measured again block by block, in parallel, rather than kept; the classes are formed in
-  // order. Calls assign(key, class) for each.
+  // Classes in the order of their representatives. Extents are measured block by block, in parallel, rather than kept; the classes are formed
+  // in order. Calls assign(facet, class) for each.
   template <class Assign>
-  std::vector<PlaneClass> form(const std::vector<FacetKey>& keys, Assign assign) const {
+  std::vector<PlaneClass> form(const std::vector<FacetKey>& keys, const PlaneClass* alone, Assign assign) const {
     std::vector<PlaneClass> classes;
     ClassIndex index(keys.size());
     std::vector<Facet> block;
     for (std::size_t begin = 0; begin < keys.size(); begin += kBlock) {
       block.resize(std::min(kBlock, keys.size() - begin));
       parallelFor(block.size(), 64, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i != last; ++i) block[i] = measured(keys[begin + i]);
+        for (std::size_t i = first; i != last; ++i) block[i] = measured(keys[begin + i].facet, alone);
       });
       for (std::size_t i = 0; i < block.size(); ++i) {
         const Facet& facet = block[i];
-        const FacetKey& key = keys[begin + i];
-        const std::uint32_t found =
-            index.find(facet.place, [&](std::uint32_t c) { return agrees(scene_, facet, key.object, classes[c], tolerance_); });
-        if (found != kNone) {
-          widen(classes[found], facet.plane.box);
-          assign(key, found);
-          continue;
+        std::uint32_t found = index.find(facet.place, [&](std::uint32_t c) { return agrees(scene_, facet, classes[c], tolerance_); });
+        if (found == kNone) {
+          found = static_cast<std::uint32_t>(classes.size());
+          classes.push_back(facet.alone);
+          index.insert(PlaneCells::homeOf(facet.place), found);
+        } else {
+          widen(classes[found], facet.extent.box);
         }
-        const auto fresh = static_cast<std::uint32_t>(classes.size());
-        classes.push_back(classOfOne(facet.plane, key.object));
-        index.insert(PlaneCells::homeOf(facet.place), fresh);
-        assign(key, fresh);
+        assign(keys[begin + i].facet, found);
       }
     }
     return classes;
@@ -230,16 +231,17 @@ class PlaneClasses::Former {
   std::uint32_t facetOf(std::uint32_t object, std::size_t facet) const { return static_cast<std::uint32_t>(facet - firstFacet_[object]); }
 
   // Of the plane from the scene's centre, in diagonals.
-  double offsetOf(const FacetPlane& plane) const {
-    return diagonal_ > 0 ? glm::dot(plane.normal, plane.point - center_) / diagonal_ : 0.0;
+  double offsetOf(const glm::dvec3& normal, const glm::dvec3& point) const {
+    return diagonal_ > 0 ? glm::dot(normal, point - center_) / diagonal_ : 0.0;
   }
-  Facet measured(const FacetKey& key) const {
-    const Object& object = scene_.objects()[key.object];
+  Facet measured(std::size_t index, const PlaneClass* alone) const {
     Facet facet;
-    facet.range = rangeOf(*object.mesh, key.facet);
-    facet.plane = planeOf(object, facet.range);
-    facet.extent = extentOf(object, facet.range, facet.plane);
-    facet.place = cells_.placeOf(facet.plane.normal, offsetOf(facet.plane));
+    facet.alone = alone[index];
+    facet.point = pointOf(scene_, facet.alone);
+    const Object& object = scene_.objects()[facet.alone.object];
+    facet.range = rangeOf(*object.mesh, facetOf(facet.alone.object, index));
+    facet.extent = extentOf(object, facet.range, facet.alone.normal, facet.point);
+    facet.place = cells_.placeOf(facet.alone.normal, offsetOf(facet.alone.normal, facet.point));
     return facet;
   }
 
@@ -266,9 +268,9 @@ PlaneClasses::PlaneClasses(const Scene& scene, double tolerance)
     former.measureAll(classes_.get(), places);
     inReach = placesInReach(places);
   }
-  const std::vector<PlaneClass> shared = former.form(former.keysOf(inReach), [&](const FacetKey& key, std::uint32_t planeClass) {
-    classOfFacet_[firstFacet_[key.object] + key.facet] = planeClass;
-  });
+  const std::vector<PlaneClass> shared =
+      former.form(former.keysOf(inReach, classes_.get()), classes_.get(),
+                  [&](std::uint32_t facet, std::uint32_t planeClass) { classOfFacet_[facet] = planeClass; });
   numberByObject(shared);
 }
 
