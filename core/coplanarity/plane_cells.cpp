@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "core/coplanarity/facets.h"
 #include "core/parallel.h"
@@ -16,7 +17,7 @@ namespace {
 constexpr double kCellPerMargin = 10;
 constexpr double kLargestCell = 0.05;
 constexpr double kSmallestCell = 1e-14;        // below the rounding of a normal; cells count to 1e14
-constexpr std::size_t kSlotsPerPlace = 16;     // by chance, a fifth of lone places seem to be in reach, and after a second look a hundredth
+constexpr std::size_t kSlotsPerPlace = 16;     // by chance, a fifth of lone places seem to be in reach
 constexpr std::size_t kGrain = 4096;           // places, for parallel loops
 
 // What is known of the cells of each hash. Bits are only ever set, so the outcome does not depend on the order.
@@ -99,13 +100,18 @@ PlaneCells::Place PlaneCells::placeOf(const glm::dvec3& normal, double offset) c
 }
 
 std::vector<std::uint32_t> placesInReach(const std::vector<PlaneCells::Place>& places) {
-  std::vector<std::uint32_t> first = look(places, 0);
-  // The few that only seemed to be in reach mostly do so no more when hashed otherwise.
-  std::vector<PlaneCells::Place> again(first.size());
-  for (std::size_t i = 0; i < first.size(); ++i) again[i] = places[first[i]];
-  std::vector<std::uint32_t> second = look(again, 1);
-  for (std::uint32_t& i : second) i = first[i];
-  return second;
+  std::vector<std::uint32_t> inReach = look(places, 0);
+  // Those that only seemed to be in reach mostly do so no more when hashed otherwise: look again while it helps.
+  std::size_t before = places.size();
+  for (std::uint64_t seed = 1; inReach.size() < before / 2; ++seed) {
+    before = inReach.size();
+    std::vector<PlaneCells::Place> again(before);
+    for (std::size_t i = 0; i < before; ++i) again[i] = places[inReach[i]];
+    std::vector<std::uint32_t> still = look(again, seed);
+    for (std::uint32_t& i : still) i = inReach[i];
+    inReach = std::move(still);
+  }
+  return inReach;
 }
 
 }  // namespace copeel
