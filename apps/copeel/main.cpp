@@ -11,8 +11,8 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <malloc.h>
 
+#include "apps/copeel/heap.h"
 #include "apps/copeel/methods_command.h"
 #include "apps/csg/command.h"
 #include "core/error.h"
@@ -71,17 +71,10 @@ int run(int argc, char** argv) {
   return finish();
 }
 
-// What one step frees the next one needs again: images and grids stay with the program instead of being mapped, and zeroed by the kernel, anew.
-void keepFreedMemory() {
-  mallopt(M_MMAP_THRESHOLD, 8 << 20);
-  mallopt(M_TRIM_THRESHOLD, 32 << 20);
-  mallopt(M_TOP_PAD, 1 << 20);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  keepFreedMemory();
+  copeel::keepHeap();
   copeel::removeTemporariesOnSignal();
   std::signal(SIGPIPE, SIG_IGN);   // a closed pipe is an error of the write, and reported as one
   try {
