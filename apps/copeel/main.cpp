@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "apps/copeel/heap.h"
 #include "apps/copeel/methods_command.h"
 #include "apps/csg/command.h"
 #include "core/error.h"
@@ -73,6 +74,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  copeel::keepHeap();
   copeel::removeTemporariesOnSignal();
   std::signal(SIGPIPE, SIG_IGN);   // a closed pipe is an error of the write, and reported as one
   try {

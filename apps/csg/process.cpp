@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <filesystem>
-#include <map>
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -37,30 +38,39 @@ pid_t start(const Command& command) {
 
 int codeOf(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + (WIFSIGNALED(status) ? WTERMSIG(status) : 0); }
 
-// Waits for one of ours; other children of the program are none of our business.
-void waitForOne(std::map<pid_t, Command*>& running) {
-  const auto oldest = running.begin();
-  int status = 0;
-  while (waitpid(oldest->first, &status, 0) < 0 && errno == EINTR) {
-  }
-  oldest->second->exitCode = codeOf(status);
-  running.erase(oldest);
-}
-
 }  // namespace
 
-void runAll(std::vector<Command>& commands, unsigned atOnce) {
-  std::map<pid_t, Command*> running;
-  try {
-    for (Command& command : commands) {
-      if (running.size() >= std::max(atOnce, 1u)) waitForOne(running);
-      running.emplace(start(command), &command);
+Process::Process(const Command& command) : id_(start(command)) {}
+
+Process::~Process() {
+  if (!ended_) kill(id_, SIGKILL);
+  wait();
+}
+
+// Waits for this one alone; other children of the program are none of our business.
+int Process::wait() {
+  int status = 0;
+  if (!ended_) {
+    while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {
     }
-  } catch (...) {
-    while (!running.empty()) waitForOne(running);
-    throw;
+    exitCode_ = codeOf(status);
+    ended_ = true;
   }
-  while (!running.empty()) waitForOne(running);
+  return exitCode_;
+}
+
+void runAll(std::vector<Command>& commands, unsigned atOnce) {
+  std::deque<Process> running;
+  std::size_t ended = 0;
+  const auto waitForOldest = [&] {
+    commands[ended++].exitCode = running.front().wait();
+    running.pop_front();
+  };
+  for (const Command& command : commands) {
+    if (running.size() >= std::max(atOnce, 1u)) waitForOldest();
+    running.emplace_back(command);
+  }
+  while (!running.empty()) waitForOldest();
 }
 
 TemporaryFolder::TemporaryFolder(const std::string& parent) {

@@ -102,12 +102,14 @@ void Renderer::State::prepare() {
   std::vector<Object> objects;
   for (const Leaf& leaf : model.leaves) objects.push_back({leaf.mesh, leaf.worldFromObject});
   bounds = viewBounds(model);
-  const Box reach = Scene(objects).bounds();
-  for (const Section& section : options.sections) {
-    sectionLeaves.push_back(static_cast<std::uint32_t>(objects.size()));
-    objects.push_back({sectionMesh(section, reach), glm::dmat4(1)});
+  scene = Scene(objects);
+  if (!options.sections.empty()) {
+    for (const Section& section : options.sections) {
+      sectionLeaves.push_back(static_cast<std::uint32_t>(objects.size()));
+      objects.push_back({sectionMesh(section, scene.bounds()), glm::dmat4(1)});
+    }
+    scene = Scene(std::move(objects));
   }
-  scene = Scene(std::move(objects));
   planes = PlaneClasses(scene, options.coplanarTolerance);
   std::vector<std::uint8_t> translucent(scene.objects().size(), 0);
   for (std::size_t i = 0; i < model.leaves.size(); ++i) translucent[i] = model.leaves[i].color && model.leaves[i].color->a < 1;

@@ -3,7 +3,9 @@
 #include "core/coplanarity/depth_planes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include <glm/geometric.hpp>
@@ -18,8 +20,14 @@ constexpr double kNearPerScene = 1e-10;   // of the scene's diagonal plus the di
 constexpr double kLeastNear = 1e-37;       // -1/t is held in float
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
-float below(double v) { return std::nextafter(static_cast<float>(v), -kInf); }
-float above(double v) { return std::nextafter(static_cast<float>(v), kInf); }
+// The next float after a rounded value, as std::nextafter has it, which libraries keep out of line: floats of one sign are ordered as their bits.
+float above(double v) {
+  const auto rounded = static_cast<float>(v);
+  if (!(std::abs(rounded) < kInf)) return std::nextafter(rounded, kInf);
+  if (rounded == 0) return std::numeric_limits<float>::denorm_min();
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(rounded) + (rounded > 0 ? 1 : ~0u));
+}
+float below(double v) { return -above(-v); }
 
 struct Setup {
   const View& view;
@@ -47,8 +55,9 @@ void setRange(DepthPlane& plane, const PlaneClass& planeClass, const Setup& setu
 DepthPlane depthPlane(const Scene& scene, const PlaneClass& planeClass, const Setup& setup) {
   const View& view = setup.view;
   const glm::dvec3 n = planeClass.normal;
+  const Object& object = scene.objects()[planeClass.object];
   const glm::dvec3 p =
-      scene.worldVertex(planeClass.object, scene.objects()[planeClass.object].mesh->triangles[planeClass.triangle].x) - view.eye;
+      transformPoint(object.worldFromObject, object.mesh->vertices[object.mesh->triangles[planeClass.triangle].x]) - view.eye;
   const double alongPoint = glm::dot(n, p), alongForward = glm::dot(n, view.forward);
   const double alongRight = glm::dot(n, view.right), alongDown = glm::dot(n, view.down);
   const double unit = double(planeClass.normalError) + 8 * kEps;   // error of a dot product with n, per length of the other vector

@@ -1,17 +1,18 @@
-// Forms plane classes: facets sorted from large to small, each tried against the classes that a hash of (normal, offset) finds near it.
+// Forms plane classes: most facets are alone, as no other's plane is near theirs, and are classes of their own. The others are sorted from large
+// to small, each tried against the classes of the cells near it.
 #include "core/coplanarity/plane_classes.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
 #include <glm/geometric.hpp>
 
+#include "core/coplanarity/facets.h"
+#include "core/coplanarity/plane_cells.h"
 #include "core/parallel.h"
 
 namespace copeel {
@@ -21,180 +22,34 @@ constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kRelativeTolerance = 1e-10;   // of the diagonal, for double coordinates
 constexpr double kFloatUlps = 4;               // for coordinates that came as float
 constexpr double kDoubleUlps = 16;             // least tolerance: two products of matrices and a rounding each
-// A facet of the size of a pixel (1e-3 of the scene) within the tolerance is turned by 1e3 tolerances at most: the margin of the hash.
+// A facet of the size of a pixel (1e-3 of the scene) within the tolerance is turned by 1e3 tolerances at most: the margin of the cells.
 constexpr double kMarginPerTolerance = 1e3;
-constexpr double kCellPerMargin = 10;
-constexpr double kLargestCell = 0.05;
+constexpr std::size_t kGrain = 512;    // facets, for parallel loops
 constexpr std::size_t kBlock = 8192;   // facets measured at a time
+constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-// What sorting needs of a placed facet: 20 bytes, as there is one for every triangle of a soup.
-struct FacetKey {
-  float area = 0;               // of its largest triangle, doubled
-  std::uint32_t tie = 0;        // hash of the plane: facets of equal area fall in an order of geometry, not of input
-  std::uint32_t object = 0, facet = 0, triangle = 0;
-};
-
-struct Facet {
-  FacetKey key;
-  glm::dvec3 normal{0, 0, 1};   // unit, turned into the half-space of kHalf
-  glm::dvec3 point{0};          // the first corner of its largest triangle
-  double offset = 0;            // of the plane from the scene's centre, in diagonals
-  double error = 0;             // bound of |normal - true normal|
-  double flatness = 0;          // largest distance of a corner from the facet's own plane
-  double radius = 0;            // largest distance of a corner from `point`
-  Box box;
-};
-
-// No plane of practice is orthogonal to this direction, so that the sign of a normal is stable under rounding.
-const glm::dvec3 kHalf = glm::normalize(glm::dvec3(0.3568220897730899, 0.5773502691896258, 0.7343224509861237));
-
-// First triangle of each facet of a mesh, and the end.
-std::vector<std::uint32_t> facetStarts(const Mesh& mesh) {
-  std::vector<std::uint32_t> starts;
-  if (mesh.facets.empty()) return starts;
-  starts.reserve(mesh.facetCount() + 1);
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    while (starts.size() <= mesh.facets[t]) starts.push_back(t);
-  }
-  starts.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
-  return starts;
+// The next float above, and below: what a double rounds to is passed, so that bounds stay bounds.
+float above(double v) {
+  const float f = static_cast<float>(v);
+  if (!(f < std::numeric_limits<float>::infinity())) return f;
+  if (f == 0) return std::numeric_limits<float>::denorm_min();
+  const auto bits = std::bit_cast<std::uint32_t>(f);
+  return std::bit_cast<float>(f > 0 ? bits + 1 : bits - 1);
 }
-
-struct FacetRange {
-  std::uint32_t begin, end;
-};
-
-FacetRange rangeOf(const std::vector<std::uint32_t>& starts, std::uint32_t facet) {
-  if (starts.empty()) return {facet, facet + 1};
-  return {starts[facet], starts[facet + 1]};
-}
-
-// A normal for a facet without area: orthogonal to its longest edge. It covers edge pixels at most, and its depth is held to its range.
-glm::dvec3 needleNormal(const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r) {
-  glm::dvec3 along = q - p;
-  for (const glm::dvec3& other : {r - p, r - q}) {
-    if (glm::dot(other, other) > glm::dot(along, along)) along = other;
-  }
-  const glm::dvec3 side = std::abs(along.x) < std::abs(along.y) ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 normal = glm::cross(along, side);
-  const double length = glm::length(normal);
-  return length > 0 && std::isfinite(length) ? normal / length : glm::dvec3(0, 0, 1);
-}
-
-// The facet's largest triangle, its plane and extent.
-Facet measure(const Scene& scene, std::uint32_t object, std::uint32_t facet, FacetRange range) {
-  Facet result;
-  result.key.object = object, result.key.facet = facet;
-  thread_local std::vector<glm::dvec3> corners;
-  corners.clear();
-  const Object& placed = scene.objects()[object];
-  const auto place = [&](std::uint32_t triangle, int k) {
-    return transformPoint(placed.worldFromObject, placed.mesh->vertices[placed.mesh->triangles[triangle][k]]);
-  };
-  double best = -1, magnitude = 0;
-  glm::dvec3 normal{0}, second{0}, third{0};
-  for (std::uint32_t t = range.begin; t < range.end; ++t) {
-    const glm::dvec3 a = place(t, 0), b = place(t, 1), c = place(t, 2);
-    result.box.add(a), result.box.add(b), result.box.add(c);
-    corners.insert(corners.end(), {a, b, c});
-    const glm::dvec3 n = glm::cross(b - a, c - a);
-    const double area = glm::length(n);
-    if (!(area > best)) continue;
-    best = area, normal = n, result.point = a, second = b, third = c, result.key.triangle = t;
-    magnitude = glm::length(b - a) * glm::length(c - a);
-  }
-  // Each component of the cross product carries four roundings of products no larger than the two edges'.
-  const double error = best > 0 ? 8 * kEps * magnitude / best : 1.0;
-  result.normal = error < 0.25 ? normal / best : needleNormal(result.point, second, third);
-  if (glm::dot(result.normal, kHalf) < 0) result.normal = -result.normal;
-  result.error = std::min(error * 1.001 + 4 * kEps, 1.0);
-  result.key.area = static_cast<float>(best);
-  double radiusSquared = 0;
-  for (const glm::dvec3& corner : corners) {
-    const glm::dvec3 away = corner - result.point;
-    result.flatness = std::max(result.flatness, std::abs(glm::dot(result.normal, away)));
-    radiusSquared = std::max(radiusSquared, glm::dot(away, away));
-  }
-  result.radius = std::sqrt(radiusSquared) * (1 + 4 * kEps);
-  return result;
-}
-
-std::uint32_t planeHash(const glm::dvec3& normal, double offset) {
-  std::uint64_t h = 0x9E3779B97F4A7C15ull;
-  for (double v : {normal.x, normal.y, normal.z, offset}) h = (h ^ std::bit_cast<std::uint64_t>(v + 0.0)) * 0xD6E8FEB86659FD93ull, h ^= h >> 32;
-  return static_cast<std::uint32_t>(h);
-}
-
-// Classes by cell of (normal, offset). A bucket of the table holds the cells that hash to it; chains are threaded through `chain_`.
-class ClassIndex {
- public:
-  ClassIndex(double margin, std::size_t expected)
-      : cell_(std::min(margin * kCellPerMargin, kLargestCell)), margin_(margin / cell_), heads_(std::bit_ceil(expected * 2 + 1), kEnd) {}
-
-  void insert(const Facet& facet, std::uint32_t planeClass) {
-    const std::uint32_t hash = hashOf(cellOf(facet.normal, facet.offset));
-    chain_.resize(planeClass + 1);
-    chain_[planeClass] = {std::exchange(heads_[hash & (heads_.size() - 1)], planeClass), hash};
-  }
-
-  // The first class for which `accept` holds among those whose plane may agree; kEnd if none.
-  template <class Accept>
-  std::uint32_t find(const Facet& facet, Accept accept) const {
-    std::uint32_t found = search(facet.normal, facet.offset, accept);
-    const bool signUnstable = std::abs(glm::dot(facet.normal, kHalf)) < margin_ * cell_;
-    if (found == kEnd && signUnstable) found = search(-facet.normal, -facet.offset, accept);
-    return found;
-  }
-
-  static constexpr std::uint32_t kEnd = ~std::uint32_t{0};
-
- private:
-  using Cell = std::array<double, 4>;   // whole numbers
-
-  Cell cellOf(const glm::dvec3& n, double offset) const {
-    return {std::rint(n.x / cell_), std::rint(n.y / cell_), std::rint(n.z / cell_), std::rint(offset / cell_)};
-  }
-  static std::uint32_t hashOf(const Cell& cell) { return planeHash({cell[0], cell[1], cell[2]}, cell[3]); }
-
-  template <class Accept>
-  std::uint32_t search(const glm::dvec3& n, double offset, Accept accept) const {
-    const double at[4] = {n.x / cell_, n.y / cell_, n.z / cell_, offset / cell_};
-    const Cell home = cellOf(n, offset);
-    // A coordinate within the margin of its cell's border may have its class next door.
-    int near[4], nearCount = 0;
-    double step[4];
-    for (int i = 0; i < 4; ++i) {
-      const double inside = at[i] - home[i];
-      if (std::abs(inside) <= 0.5 - margin_) continue;
-      near[nearCount] = i, step[nearCount++] = inside > 0 ? 1 : -1;
-    }
-    for (int corner = 0; corner < 1 << nearCount; ++corner) {
-      Cell cell = home;
-      for (int i = 0; i < nearCount; ++i) cell[near[i]] += corner >> i & 1 ? step[i] : 0;
-      const std::uint32_t hash = hashOf(cell);
-      for (std::uint32_t c = heads_[hash & (heads_.size() - 1)]; c != kEnd; c = chain_[c].next) {
-        if (chain_[c].hash == hash && accept(c)) return c;
-      }
-    }
-    return kEnd;
-  }
-
-  double cell_, margin_;   // margin in cells
-  struct Link {
-    std::uint32_t next, hash;   // of its cell: classes of other cells in the bucket are passed over unseen
-  };
-  std::vector<std::uint32_t> heads_;
-  std::vector<Link> chain_;
-};
-
-float below(double v) { return std::nextafter(static_cast<float>(v), -std::numeric_limits<float>::infinity()); }
-float above(double v) { return std::nextafter(static_cast<float>(v), std::numeric_limits<float>::infinity()); }
+float below(double v) { return -above(-v); }
 
 void widen(PlaneClass& planeClass, const Box& box) {
   for (int i = 0; i < 3; ++i) {
-    if (box.min[i] < planeClass.boundsMin[i]) planeClass.boundsMin[i] = below(box.min[i]);
-    if (box.max[i] > planeClass.boundsMax[i]) planeClass.boundsMax[i] = above(box.max[i]);
+    if (box.min[i] < double(planeClass.boundsMin[i])) planeClass.boundsMin[i] = below(box.min[i]);
+    if (box.max[i] > double(planeClass.boundsMax[i])) planeClass.boundsMax[i] = above(box.max[i]);
   }
+}
+
+PlaneClass classOfOne(const FacetPlane& plane, std::uint32_t object) {
+  constexpr float kInf = std::numeric_limits<float>::infinity();
+  PlaneClass result{plane.normal, above(plane.error), object, plane.triangle, glm::vec3(kInf), glm::vec3(-kInf)};
+  widen(result, plane.box);
+  return result;
 }
 
 double largestCoordinate(const Box& bounds) {
@@ -203,25 +58,87 @@ double largestCoordinate(const Box& bounds) {
   return std::max({m.x, m.y, m.z});
 }
 
+// Facets of equal area fall in an order of geometry, not of input.
+std::uint32_t tieOf(const glm::dvec3& normal, double offset) {
+  std::uint64_t h = 0x9E3779B97F4A7C15ull;
+  for (double v : {normal.x, normal.y, normal.z, offset}) h = (h ^ std::bit_cast<std::uint64_t>(v + 0.0)) * 0xD6E8FEB86659FD93ull, h ^= h >> 32;
+  return static_cast<std::uint32_t>(h);
+}
+
+// What sorting needs of a facet. Large facets first: they know their plane best, and the outcome does not depend on the order of the input.
+struct FacetKey {
+  float area;
+  std::uint32_t tie, facet;   // counted through all objects
+
+  friend bool operator<(const FacetKey& a, const FacetKey& b) {
+    return std::tuple(-a.area, a.tie, a.facet) < std::tuple(-b.area, b.tie, b.facet);
+  }
+};
+
+// A facet that is to find its class.
+struct Facet {
+  PlaneClass alone;
+  glm::dvec3 point{0};   // the first corner of the representative triangle
+  FacetExtent extent;
+  FacetRange range{0, 0};
+  PlaneCells::Place place = 0;
+};
+
+glm::dvec3 pointOf(const Scene& scene, const PlaneClass& planeClass) {
+  return scene.worldVertex(planeClass.object, scene.objects()[planeClass.object].mesh->triangles[planeClass.triangle].x);
+}
+
 // Every corner within the tolerance of the class's plane. The plane of the facet and its extent mostly tell without looking at the corners.
-bool agrees(const Scene& scene, const Facet& facet, const PlaneClass& planeClass, const std::vector<std::uint32_t>& starts,
-            double tolerance) {
-  const Object& placed = scene.objects()[planeClass.object];
-  const glm::dvec3 point = transformPoint(placed.worldFromObject, placed.mesh->vertices[placed.mesh->triangles[planeClass.triangle].x]);
+bool agrees(const Scene& scene, const Facet& facet, const PlaneClass& planeClass, double tolerance) {
+  const glm::dvec3 point = pointOf(scene, planeClass), normal = facet.alone.normal;
   const double at = std::abs(glm::dot(planeClass.normal, facet.point - point));
   if (at > tolerance) return false;
-  const glm::dvec3 turn = glm::dot(facet.normal, planeClass.normal) < 0 ? facet.normal + planeClass.normal : facet.normal - planeClass.normal;
-  if (at + facet.flatness + glm::length(turn) * facet.radius <= tolerance) return true;
-  const Mesh& mesh = *scene.objects()[facet.key.object].mesh;
-  const FacetRange range = rangeOf(starts, facet.key.facet);
-  for (std::uint32_t t = range.begin; t < range.end; ++t) {
+  const glm::dvec3 turn = glm::dot(normal, planeClass.normal) < 0 ? normal + planeClass.normal : normal - planeClass.normal;
+  if (at + facet.extent.flatness + glm::length(turn) * facet.extent.radius <= tolerance) return true;
+  const std::uint32_t object = facet.alone.object;
+  const Mesh& mesh = *scene.objects()[object].mesh;
+  for (std::uint32_t t = facet.range.begin; t < facet.range.end; ++t) {
     for (int k = 0; k < 3; ++k) {
-      const glm::dvec3 v = scene.worldVertex(facet.key.object, mesh.triangles[t][k]);
+      const glm::dvec3 v = scene.worldVertex(object, mesh.triangles[t][k]);
       if (std::abs(glm::dot(planeClass.normal, v - point)) > tolerance) return false;
     }
   }
   return true;
 }
+
+// Classes by cell. A bucket of the table holds the cells that hash to it; chains are threaded through `chain_`.
+class ClassIndex {
+ public:
+  explicit ClassIndex(std::size_t expected) : heads_(std::bit_ceil(expected * 2 + 1), kNone) {}
+
+  void insert(std::uint64_t cell, std::uint32_t planeClass) {
+    chain_.resize(planeClass + 1);
+    chain_[planeClass] = {std::exchange(heads_[bucketOf(cell)], planeClass), cell};
+  }
+
+  // The first class for which `accept` holds among those whose plane may agree; kNone if none.
+  template <class Accept>
+  std::uint32_t find(PlaneCells::Place place, Accept accept) const {
+    std::uint32_t found = kNone;
+    PlaneCells::anyNear(place, [&](std::uint64_t cell) {
+      for (found = heads_[bucketOf(cell)]; found != kNone; found = chain_[found].next) {
+        if (chain_[found].cell == cell && accept(found)) return true;
+      }
+      return false;
+    });
+    return found;
+  }
+
+ private:
+  struct Link {
+    std::uint32_t next;
+    std::uint64_t cell;   // classes of other cells in the bucket are passed over unseen
+  };
+  std::size_t bucketOf(std::uint64_t cell) const { return mixed(cell) & (heads_.size() - 1); }
+
+  std::vector<std::uint32_t> heads_;
+  std::vector<Link> chain_;
+};
 
 }  // namespace
 
@@ -236,84 +153,140 @@ double defaultCoplanarTolerance(const Scene& scene) {
   return tolerance;
 }
 
+// Measures facets and forms classes of those that are in reach of each other.
+class PlaneClasses::Former {
+ public:
+  Former(const Scene& scene, double tolerance, const std::vector<std::uint64_t>& firstFacet)
+      : scene_(scene),
+        tolerance_(tolerance),
+        center_(scene.bounds().center()),
+        diagonal_(scene.bounds().diagonal()),
+        cells_((diagonal_ > 0 ? tolerance / diagonal_ : kRelativeTolerance) * kMarginPerTolerance),
+        firstFacet_(firstFacet) {}
+
+  // Each facet as a class of its own, and where its plane lies.
+  void measureAll(PlaneClass* classes, std::vector<PlaneCells::Place>& places) const {
+    parallelFor(places.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      std::uint32_t object = objectOf(begin);
+      FacetRange range = rangeOf(meshOf(object), facetOf(object, begin));
+      for (std::size_t i = begin; i != end; ++i) {
+        const FacetPlane plane = planeOf(scene_.objects()[object], range);
+        classes[i] = classOfOne(plane, object);
+        places[i] = cells_.placeOf(plane.normal, offsetOf(plane.normal, plane.point));
+        if (i + 1 == end) break;
+        if (i + 1 == firstFacet_[object + 1]) object = objectOf(i + 1), range.end = 0;
+        range = rangeFrom(meshOf(object), range.end, facetOf(object, i + 1));
+      }
+    });
+  }
+
+  // The keys of these facets, sorted. `alone`: the classes that measureAll made.
+  std::vector<FacetKey> keysOf(const std::vector<std::uint32_t>& facets, const PlaneClass* alone) const {
+    std::vector<FacetKey> keys(facets.size());
+    parallelFor(keys.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i != end; ++i) {
+        const PlaneClass& facet = alone[facets[i]];
+        const double area = doubledArea(scene_.objects()[facet.object], facet.triangle);
+        keys[i] = {static_cast<float>(area), tieOf(facet.normal, offsetOf(facet.normal, pointOf(scene_, facet))), facets[i]};
+      }
+    });
+    parallelSort(keys.begin(), keys.end(), std::less<>());
+    return keys;
+  }
+
+  // Classes in the order of their representatives. Extents are measured block by block, in parallel, rather than kept; the classes are formed
+  // in order. Calls assign(facet, class) for each.
+  template <class Assign>
+  std::vector<PlaneClass> form(const std::vector<FacetKey>& keys, const PlaneClass* alone, Assign assign) const {
+    std::vector<PlaneClass> classes;
+    ClassIndex index(keys.size());
+    std::vector<Facet> block;
+    for (std::size_t begin = 0; begin < keys.size(); begin += kBlock) {
+      block.resize(std::min(kBlock, keys.size() - begin));
+      parallelFor(block.size(), 64, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) block[i] = measured(keys[begin + i].facet, alone);
+      });
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        const Facet& facet = block[i];
+        std::uint32_t found = index.find(facet.place, [&](std::uint32_t c) { return agrees(scene_, facet, classes[c], tolerance_); });
+        if (found == kNone) {
+          found = static_cast<std::uint32_t>(classes.size());
+          classes.push_back(facet.alone);
+          index.insert(PlaneCells::homeOf(facet.place), found);
+        } else {
+          widen(classes[found], facet.extent.box);
+        }
+        assign(keys[begin + i].facet, found);
+      }
+    }
+    return classes;
+  }
+
+ private:
+  const Mesh& meshOf(std::uint32_t object) const { return *scene_.objects()[object].mesh; }
+  // Of a facet counted through all objects.
+  std::uint32_t objectOf(std::size_t facet) const {
+    return static_cast<std::uint32_t>(std::upper_bound(firstFacet_.begin(), firstFacet_.end(), facet) - firstFacet_.begin() - 1);
+  }
+  std::uint32_t facetOf(std::uint32_t object, std::size_t facet) const { return static_cast<std::uint32_t>(facet - firstFacet_[object]); }
+
+  // Of the plane from the scene's centre, in diagonals.
+  double offsetOf(const glm::dvec3& normal, const glm::dvec3& point) const {
+    return diagonal_ > 0 ? glm::dot(normal, point - center_) / diagonal_ : 0.0;
+  }
+  Facet measured(std::size_t index, const PlaneClass* alone) const {
+    Facet facet;
+    facet.alone = alone[index];
+    facet.point = pointOf(scene_, facet.alone);
+    const Object& object = scene_.objects()[facet.alone.object];
+    facet.range = rangeOf(*object.mesh, facetOf(facet.alone.object, index));
+    facet.extent = extentOf(object, facet.range, facet.alone.normal, facet.point);
+    facet.place = cells_.placeOf(facet.alone.normal, offsetOf(facet.alone.normal, facet.point));
+    return facet;
+  }
+
+  const Scene& scene_;
+  double tolerance_;
+  glm::dvec3 center_;
+  double diagonal_;
+  PlaneCells cells_;
+  const std::vector<std::uint64_t>& firstFacet_;   // of each object, and the end
+};
+
 PlaneClasses::PlaneClasses(const Scene& scene, double tolerance)
     : tolerance_(tolerance > 0 ? tolerance : defaultCoplanarTolerance(scene)) {
-  // Number the placed facets, and find the facets of each shared mesh once.
-  std::unordered_map<const Mesh*, std::vector<std::uint32_t>> startsOfMesh;
-  std::vector<const std::vector<std::uint32_t>*> starts;
-  std::uint64_t facetCount = 0;
-  for (const Object& object : scene.objects()) {
-    auto [entry, fresh] = startsOfMesh.try_emplace(object.mesh.get());
-    if (fresh) entry->second = facetStarts(*object.mesh);
-    starts.push_back(&entry->second);
-    firstFacet_.push_back(facetCount);
-    facetCount += object.mesh->facetCount();
-  }
-  classOfFacet_.resize(facetCount);
+  firstFacet_.push_back(0);
+  for (const Object& object : scene.objects()) firstFacet_.push_back(firstFacet_.back() + object.mesh->facetCount());
+  const std::size_t facetCount = firstFacet_.back();
+  classOfFacet_.assign(facetCount, kNone);
+  classes_ = std::make_unique_for_overwrite<PlaneClass[]>(facetCount);
 
-  // Large facets first: they know their plane best, and the outcome does not depend on the order of the input.
-  const glm::dvec3 center = scene.bounds().center();
-  const double diagonal = scene.bounds().diagonal();
-  const auto measured = [&](std::uint32_t object, std::uint32_t f) {
-    Facet facet = measure(scene, object, f, rangeOf(*starts[object], f));
-    facet.offset = diagonal > 0 ? glm::dot(facet.normal, facet.point - center) / diagonal : 0.0;
-    facet.key.tie = planeHash(facet.normal, facet.offset);
-    return facet;
-  };
-  std::vector<FacetKey> keys(facetCount);
-  parallelFor(scene.objects().size(), 1, [&](std::size_t firstObject, std::size_t endObject) {
-    for (std::size_t object = firstObject; object != endObject; ++object) {
-      const std::size_t count = scene.objects()[object].mesh->facetCount();
-      parallelFor(count, kBlock, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t f = begin; f != end; ++f) {
-          keys[firstFacet_[object] + f] = measured(static_cast<std::uint32_t>(object), static_cast<std::uint32_t>(f)).key;
-        }
-      });
-    }
-  });
-  parallelSort(keys.begin(), keys.end(), [](const FacetKey& a, const FacetKey& b) {
-    return std::tuple(-a.area, a.tie, a.object, a.facet) < std::tuple(-b.area, b.tie, b.object, b.facet);
-  });
-
-  // Facets are measured again block by block, in parallel, rather than kept; the classes are formed in order.
-  const double relative = diagonal > 0 ? tolerance_ / diagonal : kRelativeTolerance;
-  ClassIndex index(relative * kMarginPerTolerance, facetCount);
-  std::vector<Facet> block;
-  for (std::size_t begin = 0; begin < keys.size(); begin += kBlock) {
-    block.resize(std::min(kBlock, keys.size() - begin));
-    parallelFor(block.size(), 64, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i != last; ++i) block[i] = measured(keys[begin + i].object, keys[begin + i].facet);
-    });
-    for (const Facet& facet : block) {
-      std::uint32_t found = index.find(facet, [&](std::uint32_t c) { return agrees(scene, facet, classes_[c], *starts[facet.key.object], tolerance_); });
-      if (found == ClassIndex::kEnd) {
-        found = static_cast<std::uint32_t>(classes_.size());
-        constexpr float kInf = std::numeric_limits<float>::infinity();
-        classes_.push_back({facet.normal, above(facet.error), facet.key.object, facet.key.triangle, glm::vec3(kInf), glm::vec3(-kInf)});
-        index.insert(facet, found);
-      }
-      widen(classes_[found], facet.box);
-      classOfFacet_[firstFacet_[facet.key.object] + facet.key.facet] = found;
-    }
+  const Former former(scene, tolerance_, firstFacet_);
+  std::vector<std::uint32_t> inReach;
+  {
+    std::vector<PlaneCells::Place> places(facetCount);
+    former.measureAll(classes_.get(), places);
+    inReach = placesInReach(places);
   }
-  keys = {};
-  numberByObject();
+  const std::vector<PlaneClass> shared =
+      former.form(former.keysOf(inReach, classes_.get()), classes_.get(),
+                  [&](std::uint32_t facet, std::uint32_t planeClass) { classOfFacet_[facet] = planeClass; });
+  numberByObject(shared);
 }
 
-// Classes numbered as the objects meet them, so that what is drawn together lies together.
-void PlaneClasses::numberByObject() {
-  std::vector<std::uint32_t> number(classes_.size(), ~std::uint32_t{0});
-  std::uint32_t count = 0;
-  for (std::uint32_t& planeClass : classOfFacet_) {
-    if (number[planeClass] == ~std::uint32_t{0}) number[planeClass] = count++;
-    planeClass = number[planeClass];
-  }
-  // Moved in place, cycle by cycle.
-  for (std::uint32_t i = 0; i < number.size(); ++i) {
-    while (number[i] != i) {
-      std::swap(classes_[i], classes_[number[i]]);
-      std::swap(number[i], number[number[i]]);
+// Classes numbered as the objects meet them, so that what is drawn together lies together. Those of lone facets move down to their place.
+void PlaneClasses::numberByObject(const std::vector<PlaneClass>& shared) {
+  std::vector<std::uint32_t> number(shared.size(), kNone);
+  for (std::size_t facet = 0; facet < classOfFacet_.size(); ++facet) {
+    std::uint32_t& planeClass = classOfFacet_[facet];
+    if (planeClass == kNone) {
+      if (classCount_ != facet) classes_[classCount_] = classes_[facet];
+      planeClass = classCount_++;
+      continue;
     }
+    std::uint32_t& own = number[planeClass];
+    if (own == kNone) classes_[classCount_] = shared[planeClass], own = classCount_++;
+    planeClass = own;
   }
 }
 

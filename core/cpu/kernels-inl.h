@@ -75,6 +75,81 @@ HWY_INLINE HWY_ATTR void rowKeys(const TriangleSetup& t, int x, int y, KeyFormat
   }
 }
 
+// A triangle whose bounds hold no more samples than a block is taken sample by sample, whatever blocks it lies in.
+HWY_INLINE bool isSmall(const TriangleSetup& t) { return (t.x1 - t.x0 + 1) * (t.y1 - t.y0 + 1) <= kBlockPixels; }
+
+// The blocks that the bounds touch, a bit for each.
+HWY_INLINE std::uint32_t touchedBlocks(const TriangleSetup& t) {
+  const int bx0 = t.x0 / kBlockSize, bx1 = t.x1 / kBlockSize, by0 = t.y0 / kBlockSize, by1 = t.y1 / kBlockSize;
+  const std::uint32_t row = ((2u << bx1) - (1u << bx0)) * 0x1111u;
+  return row & ((0x10u << (kBlocksPerSide * by1)) - (1u << (kBlocksPerSide * by0)));
+}
+
+HWY_INLINE std::uint32_t blocksOf(const BlockRect& rect) {
+  std::uint32_t blocks = 0;
+  for (int by = rect.by0; by < rect.by1; ++by) {
+    for (int bx = rect.bx0; bx < rect.bx1; ++bx) blocks |= 1u << (by * kBlocksPerSide + bx);
+  }
+  return blocks;
+}
+
+// A window of 64 samples, 2^log to a row. Bit i stands for sample (x + i mod 2^log, y + i / 2^log).
+struct Window {
+  int x, y, log;
+  int columns, rows;   // of samples inside the triangle's bounds
+};
+
+HWY_INLINE HWY_ATTR std::uint64_t windowCoverage(const TriangleSetup& t, const Window& w) {
+  const I32 d;
+  const int lanes = static_cast<int>(hn::Lanes(d)), samples = w.rows << w.log;
+  std::uint64_t outside = 0;
+  for (int lane = 0; lane < kBlockSize; lane += lanes) {
+    const auto index = hn::Load(d, kIotaInt + lane);
+    const auto column = hn::And(index, hn::Set(d, (1 << w.log) - 1)), row = hn::ShiftRightSame(index, w.log);
+    const auto first = [&](int i) HWY_ATTR {
+      const auto corner = hn::Set(d, t.a[i] * w.x + t.b[i] * w.y + t.c[i]);
+      return hn::Add(corner, hn::Add(hn::Mul(hn::Set(d, t.a[i]), column), hn::Mul(hn::Set(d, t.b[i]), row)));
+    };
+    auto e0 = first(0), e1 = first(1), e2 = first(2);
+    // Eight samples on.
+    const int rowsOn = kBlockSize >> w.log;
+    const auto s0 = hn::Set(d, t.b[0] * rowsOn), s1 = hn::Set(d, t.b[1] * rowsOn), s2 = hn::Set(d, t.b[2] * rowsOn);
+    for (int i = 0; i < samples; i += kBlockSize) {
+      std::uint8_t byte[8] = {};
+      hn::StoreMaskBits(d, hn::Lt(hn::Or(hn::Or(e0, e1), e2), hn::Zero(d)), byte);
+      outside |= std::uint64_t{byte[0]} << (i + lane);
+      e0 = hn::Add(e0, s0), e1 = hn::Add(e1, s1), e2 = hn::Add(e2, s2);
+    }
+  }
+  // Edges that the triangle's bounds make redundant were dropped, so the bounds count.
+  static constexpr std::uint64_t kEveryRow[] = {~0ull, 0x5555555555555555ull, 0x1111111111111111ull, 0x0101010101010101ull};
+  const std::uint64_t within = (kEveryRow[w.log] * ((1u << w.columns) - 1)) & (~std::uint64_t{0} >> (kBlockPixels - samples));
+  return within & ~outside;
+}
+
+// `visit(block, pixel, key)` for the samples of a small triangle. The keys come of the same operations as in rowKeys.
+template <class Visit>
+HWY_INLINE HWY_ATTR void forEachSample(const TriangleSetup& t, KeyFormat format, Visit visit) {
+  // A window starts at the bounds' corner and has their shape: nearly every small triangle needs but one, where it would straddle two to
+  // four blocks. One of up to 8 columns has 8·8 / columns rows at most, so that the windows of a column are never more than two.
+  const int width = t.x1 - t.x0 + 1, log = width > 4 ? 3 : width > 2 ? 2 : width - 1;
+  const int mostColumns = 1 << log, mostRows = kBlockPixels >> log;
+  for (int y = t.y0; y <= t.y1; y += mostRows) {
+    for (int x = t.x0; x <= t.x1; x += mostColumns) {
+      const Window w{x, y, log, std::min(t.x1 - x + 1, mostColumns), std::min(t.y1 - y + 1, mostRows)};
+      for (std::uint64_t covered = windowCoverage(t, w); covered; covered &= covered - 1) {
+        const int bit = __builtin_ctzll(covered), px = x + (bit & (mostColumns - 1)), py = y + (bit >> log);
+        const double affine = t.da * static_cast<double>(px) + (t.db * static_cast<double>(py) + t.dc);
+        const double depth = std::min(std::max(affine, t.lo), t.hi);
+        std::uint64_t bits;
+        __builtin_memcpy(&bits, &depth, sizeof bits);
+        visit(py / kBlockSize * kBlocksPerSide + px / kBlockSize, py % kBlockSize * kBlockSize + px % kBlockSize,
+              (bits << (64 - format.depthBits)) >> (64 - kKeyBits) | t.slot);
+      }
+    }
+  }
+}
+
 template <class Visit>
 HWY_INLINE HWY_ATTR bool forEachBlock(const TriangleSetup& t, const BlockRect& rect, Visit visit) {
   const int bx0 = std::max(t.x0 / kBlockSize, rect.bx0), bx1 = std::min(t.x1 / kBlockSize + 1, rect.bx1);
@@ -95,10 +170,30 @@ HWY_INLINE HWY_ATTR bool sameCounts(const std::uint32_t* counts) {
   return pair[0] == first && pair[1] == first && pair[2] == first && pair[3] == first;
 }
 
+// One more layer in each of the blocks.
+HWY_INLINE bool makeRoom(FragmentGrid& grid, std::uint32_t blocks) {
+  for (; blocks; blocks &= blocks - 1) {
+    FragmentGrid::Block& block = grid.block(__builtin_ctz(blocks));
+    if (block.used == block.capacity && !grid.grow(block)) return false;
+    ++block.used;
+  }
+  return true;
+}
+
 HWY_ATTR bool CollectFragments(const TriangleSetup* triangles, std::size_t count, KeyFormat format, const BlockRect& rect,
                                std::uint32_t finished, FragmentGrid& grid) {
+  const std::uint32_t open = blocksOf(rect) & ~finished;
   for (std::size_t i = 0; i < count; ++i) {
     const TriangleSetup& t = triangles[i];
+    const std::uint32_t touched = touchedBlocks(t);
+    if (isSmall(t) && !(touched & ~open)) {
+      if (!makeRoom(grid, touched)) return false;
+      forEachSample(t, format, [&](int index, int pixel, std::uint64_t key) HWY_ATTR {
+        FragmentGrid::Block& block = grid.block(index);
+        block.keys[std::size_t{block.counts[pixel]++} * kBlockPixels + pixel] = key;
+      });
+      continue;
+    }
     const bool room = forEachBlock(t, rect, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
       if (finished >> index & 1) return true;
       FragmentGrid::Block& block = grid.block(index);
@@ -130,8 +225,16 @@ HWY_ATTR bool CollectFragments(const TriangleSetup* triangles, std::size_t count
 
 HWY_ATTR void CollectNearest(const TriangleSetup* triangles, std::size_t count, KeyFormat format, const BlockRect& rect,
                              std::uint64_t* nearest) {
+  const std::uint32_t open = blocksOf(rect);
   for (std::size_t i = 0; i < count; ++i) {
     const TriangleSetup& t = triangles[i];
+    if (isSmall(t) && !(touchedBlocks(t) & ~open)) {
+      forEachSample(t, format, [&](int block, int pixel, std::uint64_t key) HWY_ATTR {
+        std::uint64_t& least = nearest[block * kBlockPixels + pixel];
+        least = std::min(least, key);
+      });
+      continue;
+    }
     forEachBlock(t, rect, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
       for (int row = __builtin_ctzll(covered) / kBlockSize; row < kBlockSize; ++row) {
         const std::uint32_t mask = covered >> (row * kBlockSize) & 0xFF;

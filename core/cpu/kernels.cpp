@@ -1,4 +1,5 @@
-// Coverage block by block, then keys row by row. The hot code is in kernels-inl.h, compiled once per target.
+// Large triangles block by block, their keys row by row; small ones in one window, sample by sample. The hot code is in kernels-inl.h, compiled
+// once per target.
 #include "core/cpu/kernels.h"
 
 #include <algorithm>

@@ -28,6 +28,7 @@ struct TriangleSetup {
   std::int32_t a[3], b[3], c[3];
   std::uint8_t x0, y0, x1, y1;      // bounds of covered samples, inclusive
   std::uint32_t slot;
+  std::int32_t samples;             // about how many it covers
   double da, db, dc, lo, hi;
 };
 

@@ -27,7 +27,7 @@ void renderNearest(const Frame& frame, Visit visit) {
       Tile& tile = local.tile;
       tile.begin(frame, static_cast<int>(i));
       tile.setUp(frame);
-      tile.finish(frame, std::numeric_limits<double>::infinity(), false);
+      tile.finish(std::numeric_limits<double>::infinity(), false);
       std::fill(local.nearest.begin(), local.nearest.end(), kEmptyKey);
       collectNearest(tile.setups, tile.format, BlockRect{}, local.nearest.data());
       for (int y = 0; y < tile.height; ++y) {

@@ -46,7 +46,7 @@ class TileRenderer {
     tile_.setUp(frame_);
     const double farthest = fold_.narrowTile(tile_);
     if (farthest == -std::numeric_limits<double>::infinity()) return;
-    tile_.finish(frame_, farthest, options_.decideAllExactly);
+    tile_.finish(farthest, options_.decideAllExactly);
     std::fill(std::begin(done_), std::end(done_), 0);
     finished_ = 0;
     drawRect(BlockRect{0, 0, (tile_.width + kBlockSize - 1) / kBlockSize, (tile_.height + kBlockSize - 1) / kBlockSize});

@@ -1,10 +1,11 @@
-// Tile set-up: exact edge functions, depth functions scaled to keys.
+// Tile set-up: corners are gathered into batches for edges.h, depth functions follow triangle by triangle and are scaled to keys.
 #include "core/cpu/tile.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <glm/matrix.hpp>
 
@@ -14,29 +15,22 @@ namespace copeel::cpu {
 namespace {
 
 constexpr double kBias = 4503599627370496.0;              // 2^52: beyond it a double counts whole numbers
-constexpr double kMostUncertainty = 1125899906842624.0;   // 2^50 key units: nothing is certain
+constexpr std::uint64_t kMostUncertainty = std::uint64_t{1} << 50;   // key units: nothing is certain
 // Two sums near 2^52 and a clamp round to whole key units.
 constexpr double kKeyRounding = 3;
 constexpr double kFinestError = 4;   // key units, of the most certain plane of a tile
 
-struct Corners {
-  glm::ivec2 p, q, r;
-};
-
-Corners cornersOf(const Frame& frame, std::uint32_t object, std::uint32_t reference) {
-  if (reference >= kPrimitiveLimit) {
-    const ClippedTriangle& piece = frame.bins.clipped[reference - kPrimitiveLimit];
-    return {piece.corners[0], piece.corners[1], piece.corners[2]};
-  }
-  const glm::uvec3 t = frame.scene.objects()[object].mesh->triangles[reference - frame.scene.firstPrimitive(object)];
-  const glm::ivec2* vertices = frame.projection.vertices.data() + frame.projection.firstVertex[object];
-  return {vertices[t.x], vertices[t.y], vertices[t.z]};
+// Of a value in [0, 2^63).
+std::uint64_t roundedUp(double value) {
+  const auto floor = static_cast<std::int64_t>(value);
+  return static_cast<std::uint64_t>(floor) + (static_cast<double>(floor) < value);
 }
 
 bool mirrors(const glm::dmat4& m) { return glm::determinant(glm::dmat3(m)) < 0; }
 
-// A triangle covers about half of its bounds.
-double layersOf(const TriangleSetup& t, int pixels) { return 0.5 * (t.x1 - t.x0 + 1) * (t.y1 - t.y0 + 1) / pixels; }
+std::uint32_t primitiveOf(const Frame& frame, std::uint32_t reference) {
+  return reference < kPrimitiveLimit ? reference : frame.bins.clipped[reference - kPrimitiveLimit].primitive;
+}
 
 }  // namespace
 
@@ -57,8 +51,7 @@ void Tile::begin(const Frame& frame, int index) {
   std::uint32_t end = 0;   // first primitive after the current object
   for (std::uint32_t i = 0; i < references_.size(); ++i) {
     const std::uint32_t reference = references_[i];
-    const std::uint32_t primitive =
-        reference < kPrimitiveLimit ? reference : frame.bins.clipped[reference - kPrimitiveLimit].primitive;
+    const std::uint32_t primitive = primitiveOf(frame, reference);
     if (primitive >= end) {
       const std::uint32_t object = frame.scene.objectOf(primitive);
       end = object + 1 < frame.scene.objects().size() ? frame.scene.firstPrimitive(object + 1) : kPrimitiveLimit;
@@ -70,103 +63,117 @@ void Tile::begin(const Frame& frame, int index) {
 
 void Tile::setUp(const Frame& frame) {
   ranges_.clear();
+  leastError_ = std::numeric_limits<double>::infinity();
+  int count = 0;
   for (std::uint32_t i = 0; i < objects.size(); ++i) {
-    if (!objects[i].keep) continue;
-    objects[i].least = std::numeric_limits<double>::infinity();
-    objects[i].most = -objects[i].least;
-    const std::size_t first = slots.size();
-    for (std::uint32_t k = objects[i].firstReference; k < objects[i].lastReference; ++k) {
-      addTriangle(frame, objects[i], i, references_[k]);
-    }
-    if (slots.size() > first && mirrors(frame.scene.objects()[objects[i].object].worldFromObject)) {
-      for (std::size_t s = first; s < slots.size(); ++s) slots[s].side = -slots[s].side;
+    TileObject& object = objects[i];
+    if (!object.keep) continue;
+    object.least = std::numeric_limits<double>::infinity();
+    object.most = -object.least;
+    object.mirrored = mirrors(frame.scene.objects()[object.object].worldFromObject);
+    // Batches run on from object to object.
+    for (std::uint32_t k = object.firstReference; k < object.lastReference; ++k) {
+      gather(frame, i, references_[k], count++);
+      if (count == kEdgeBatch) setUpBatch(frame, std::exchange(count, 0));
     }
   }
+  setUpBatch(frame, count);
 }
 
-void Tile::finish(const Frame& frame, double farthest, bool decideAllExactly) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < setups.size(); ++i) {
-    if (!objects[slots[i].object].keep || ranges_[i].least > farthest) continue;
-    setups[kept] = setups[i];
-    ranges_[kept++] = ranges_[i];
+// Corners to place `at` of the batch.
+void Tile::gather(const Frame& frame, std::uint32_t objectIndex, std::uint32_t reference, int at) {
+  const std::uint32_t object = objects[objectIndex].object;
+  glm::ivec2 p, q, r;
+  std::uint32_t triangle;
+  if (reference < kPrimitiveLimit) {
+    triangle = reference - frame.scene.firstPrimitive(object);
+    const glm::uvec3 t = frame.scene.objects()[object].mesh->triangles[triangle];
+    const glm::ivec2* vertices = frame.projection.vertices.data() + frame.projection.firstVertex[object];
+    p = vertices[t.x], q = vertices[t.y], r = vertices[t.z];
+  } else {
+    const ClippedTriangle& piece = frame.bins.clipped[reference - kPrimitiveLimit];
+    triangle = piece.primitive - frame.scene.firstPrimitive(object);
+    p = piece.corners[0], q = piece.corners[1], r = piece.corners[2];
   }
-  setups.resize(kept);
-  ranges_.resize(kept);
-  scaleDepths(frame, decideAllExactly);
+  edges_.px[at] = p.x, edges_.py[at] = p.y, edges_.qx[at] = q.x, edges_.qy[at] = q.y, edges_.rx[at] = r.x, edges_.ry[at] = r.y;
+  // The class's plane is wanted soon, and rarely lies near the last one.
+  const std::uint32_t planeClass = frame.planes.classOf(object, frame.scene.objects()[object].mesh->facetOf(triangle));
+  __builtin_prefetch(&frame.depths[planeClass]);
+  gathered_[at] = {objectIndex, frame.scene.firstPrimitive(object) + triangle, planeClass};
 }
 
-void Tile::addTriangle(const Frame& frame, TileObject& object, std::uint32_t objectIndex, std::uint32_t reference) {
-  auto [p, q, r] = cornersOf(frame, object.object, reference);
-  const std::int64_t area = std::int64_t{q.x - p.x} * (r.y - p.y) - std::int64_t{q.y - p.y} * (r.x - p.x);
-  if (area < 0) std::swap(q, r);
-  const int bits = frame.projection.grid.bits;
-  const int round = (1 << bits) - 1;
-  const glm::ivec2 origin(x0 << bits, y0 << bits);
-
-  // Samples that the bounds leave, within the tile.
-  TriangleSetup t;
-  const int left = std::max(((std::min({p.x, q.x, r.x}) + round) >> bits) - x0, 0);
-  const int top = std::max(((std::min({p.y, q.y, r.y}) + round) >> bits) - y0, 0);
-  const int right = std::min((std::max({p.x, q.x, r.x}) >> bits) - x0, width - 1);
-  const int bottom = std::min((std::max({p.y, q.y, r.y}) >> bits) - y0, height - 1);
-  if (left > right || top > bottom) return;
-  t.x0 = left, t.y0 = top, t.x1 = right, t.y1 = bottom;
-
-  // Edge functions at samples are whole numbers of 2^bits plus a constant: their floor has the same sign. An edge that holds the whole of the
-  // bounds on its inner side is dropped.
-  const glm::ivec2 corners[4] = {p, q, r, p};
-  for (int i = 0; i < 3; ++i) {
-    const glm::ivec2 from = corners[i], to = corners[i + 1];
-    const std::int64_t a = from.y - to.y, b = to.x - from.x;
-    const bool owns = a > 0 || (a == 0 && b > 0);   // the top-left rule: a sample on an edge belongs to one side only
-    const std::int64_t c = (a * (origin.x - from.x) + b * (origin.y - from.y) - (owns ? 0 : 1)) >> bits;
-    const std::int64_t largest = c + a * (a > 0 ? right : left) + b * (b > 0 ? bottom : top);
-    const std::int64_t smallest = c + a * (a > 0 ? left : right) + b * (b > 0 ? top : bottom);
-    if (largest < 0) return;
-    const bool needed = smallest < 0;
-    t.a[i] = needed ? static_cast<std::int32_t>(a) : 0;
-    t.b[i] = needed ? static_cast<std::int32_t>(b) : 0;
-    t.c[i] = needed ? static_cast<std::int32_t>(c) : 0;
-  }
-
-  const std::uint32_t primitive =
-      reference < kPrimitiveLimit ? reference : frame.bins.clipped[reference - kPrimitiveLimit].primitive;
-  const std::uint32_t local = primitive - frame.scene.firstPrimitive(object.object);
-  const std::uint32_t planeClass =
-      frame.planes.classOf(object.object, frame.scene.objects()[object.object].mesh->facetOf(local));
-  const DepthPlane& plane = frame.depths[planeClass];
+void Tile::setUpBatch(const Frame& frame, int count) {
+  setUpEdges(edges_, count, {x0, y0, width, height, frame.projection.grid.bits});
+  // The tile's first sample, in the depth planes' coordinates.
   const double u = x0 + 0.5 + frame.view.offset.x - frame.view.width * 0.5;
   const double v = y0 + 0.5 + frame.view.offset.y - frame.view.height * 0.5;
+  for (int i = 0; i < count; ++i) {
+    if (edges_.side[i] == 0) continue;
+    const Gathered& from = gathered_[i];
+    TileObject& object = objects[from.object];
+    addEdges(i);
+    addDepth(frame.depths[from.planeClass], u, v, object);
+    TileSlot& slot = slots.emplace_back();
+    slot.primitive = from.primitive;
+    slot.planeClass = from.planeClass;
+    slot.object = from.object;
+    slot.side = object.mirrored ? -edges_.side[i] : edges_.side[i];
+  }
+}
+
+void Tile::addEdges(int at) {
+  TriangleSetup& t = setups.emplace_back();
+  for (int k = 0; k < 3; ++k) t.a[k] = edges_.a[k][at], t.b[k] = edges_.b[k][at], t.c[k] = edges_.c[k][at];
+  t.x0 = edges_.x0[at], t.y0 = edges_.y0[at], t.x1 = edges_.x1[at], t.y1 = edges_.y1[at];
+  t.samples = edges_.samples[at];
   t.slot = static_cast<std::uint32_t>(slots.size());
+}
+
+// The last setup's depth, in order values yet.
+void Tile::addDepth(const DepthPlane& plane, double u, double v, TileObject& object) {
+  TriangleSetup& t = setups.back();
   t.da = plane.a;
   t.db = plane.b;
   t.dc = plane.a * u + (plane.b * v + plane.c);
   t.lo = plane.lo;
   t.hi = plane.hi;
-  const double small = t.dc + std::min(t.da * left, t.da * right) + std::min(t.db * top, t.db * bottom);
-  const double large = t.dc + std::max(t.da * left, t.da * right) + std::max(t.db * top, t.db * bottom);
-  ranges_.push_back({std::clamp(small, t.lo, t.hi), std::clamp(large, t.lo, t.hi)});
-  object.least = std::min(object.least, ranges_.back().least - plane.error);
-  object.most = std::max(object.most, ranges_.back().most + plane.error);
-  setups.push_back(t);
-  slots.push_back({primitive, planeClass, objectIndex, area < 0 ? 1 : -1, 0});
+  const double small = t.dc + std::min(t.da * t.x0, t.da * t.x1) + std::min(t.db * t.y0, t.db * t.y1);
+  const double large = t.dc + std::max(t.da * t.x0, t.da * t.x1) + std::max(t.db * t.y0, t.db * t.y1);
+  const double error = plane.error;
+  const Range& range = ranges_.emplace_back(Range{std::clamp(small, t.lo, t.hi), std::clamp(large, t.lo, t.hi), error});
+  object.least = std::min(object.least, range.least - error);
+  object.most = std::max(object.most, range.most + error);
+  leastError_ = std::min(leastError_, error);
 }
 
-void Tile::scaleDepths(const Frame& frame, bool decideAllExactly) {
+void Tile::finish(double farthest, bool decideAllExactly) {
+  std::size_t kept = 0;
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (std::size_t i = 0; i < setups.size(); ++i) {
+    const Range& range = ranges_[i];
+    if (!objects[slots[setups[i].slot].object].keep || range.least > farthest) continue;
+    least = std::min(least, range.least), most = std::max(most, range.most);
+    if (kept < i) setups[kept] = setups[i], ranges_[kept] = range;
+    ++kept;
+  }
+  setups.resize(kept);
+  ranges_.resize(kept);
+  scaleDepths(least, most, decideAllExactly);
+}
+
+void Tile::scaleDepths(double least, double most, bool decideAllExactly) {
   const int slotBits = std::max(static_cast<int>(std::bit_width(slots.size())), kKeyBits - kMostDepthBits);
   format.depthBits = kKeyBits - slotBits;
   // A margin of 2^-8 of the range at both ends takes the rounding.
   const double units = std::ldexp(1.0, format.depthBits), margin = units / 256;
-  double least = std::numeric_limits<double>::infinity(), most = -least;
-  for (const Range& range : ranges_) least = std::min(least, range.least), most = std::max(most, range.most);
   const double range = most - least;
   // A range so small that rounding would fill thousands of key units gains nothing from a larger scale.
-  double leastError = std::numeric_limits<double>::infinity();
-  for (const TileSlot& slot : slots) leastError = std::min(leastError, double(frame.depths[slot.planeClass].error));
-  const double limit = std::clamp(kFinestError / leastError, 1e-200, 1e200);
+  const double limit = std::clamp(kFinestError / leastError_, 1e-200, 1e200);
   const double scale = std::min(range > 0 ? (units - 2 * margin) / range : 1.0, limit);
   const double shift = kBias + margin;
+  // One bound for all but the coarse: then a gap between neighbours in sorted order parts everything before from everything after.
+  uncertainty = 0;
+  coarse = false;
   for (std::size_t i = 0; i < setups.size(); ++i) {
     TriangleSetup& t = setups[i];
     t.da *= scale;
@@ -174,58 +181,47 @@ void Tile::scaleDepths(const Frame& frame, bool decideAllExactly) {
     t.dc = (t.dc - least) * scale + shift;
     t.lo = std::max((t.lo - least) * scale, -margin) + shift;
     t.hi = std::min((t.hi - least) * scale, units - 2 * margin) + shift;
-    TileSlot& slot = slots[t.slot];
-    const double error = double(frame.depths[slot.planeClass].error) * scale * 1.25 + kKeyRounding;
-    const double bound = decideAllExactly ? kMostUncertainty : std::min(std::ceil(error), kMostUncertainty);
-    slot.uncertainty = static_cast<std::uint64_t>(bound);
-  }
-  // One bound for all but the coarse: then a gap between neighbours in sorted order parts everything before from everything after.
-  uncertainty = 0;
-  coarse = false;
-  for (const TileSlot& slot : slots) {
-    coarse |= slot.uncertainty > kCoarse;
-    if (slot.uncertainty <= kCoarse) uncertainty = std::max(uncertainty, slot.uncertainty);
+    const double error = ranges_[i].error * scale * 1.25 + kKeyRounding;
+    const std::uint64_t bound = decideAllExactly ? kMostUncertainty : roundedUp(std::min(error, double{kMostUncertainty}));
+    slots[t.slot].uncertainty = bound;
+    if (bound > kCoarse) coarse = true;
+    else uncertainty = std::max(uncertainty, bound);
   }
   for (TileSlot& slot : slots) slot.uncertainty = std::max(slot.uncertainty, uncertainty);
 }
 
 double Tile::layers() const {
-  double sum = 0;
-  for (const TriangleSetup& t : setups) sum += layersOf(t, width * height);
-  return sum;
+  std::int64_t samples = 0;
+  for (const TriangleSetup& t : setups) samples += t.samples;
+  return static_cast<double>(samples) / (width * height);
 }
 
 std::size_t Tile::setupsOfLayers(double layers) const {
+  double samples = layers * width * height;
   std::size_t count = 0;
-  while (count < setups.size() && layers > 0) layers -= layersOf(setups[count++], width * height);
+  while (count < setups.size() && samples > 0) samples -= setups[count++].samples;
   return count;
 }
 
 void Tile::orderByDepth() {
-  struct Order {
-    std::uint64_t depth;
-    std::uint32_t setup;
-  };
-  std::vector<Order> order;
-  order.reserve(setups.size());
+  // As in a key, the low bits hold an index: a setup's is never greater than a slot's.
+  const int indexBits = format.slotBits();
+  order_.clear();
   for (std::uint32_t i = 0; i < setups.size(); ++i) {
     const TriangleSetup& t = setups[i];
     const double least = t.dc + std::min(t.da * t.x0, t.da * t.x1) + std::min(t.db * t.y0, t.db * t.y1);
-    const auto depth = static_cast<std::uint64_t>(std::clamp(least, t.lo, t.hi) - kBias);
+    const auto depth = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(least, t.lo, t.hi) - kBias));
     const std::uint64_t reach = slots[t.slot].uncertainty + 2;
-    order.push_back({depth > reach ? depth - reach : 0, i});
+    order_.push_back((depth > reach ? depth - reach : 0) << indexBits | i);
   }
-  std::sort(order.begin(), order.end(), [](const Order& a, const Order& b) {
-    return a.depth != b.depth ? a.depth < b.depth : a.setup < b.setup;
-  });
-  std::vector<TriangleSetup> sorted;
-  sorted.reserve(setups.size());
+  std::sort(order_.begin(), order_.end());
+  sorted_.clear();
   nearest.clear();
-  for (const Order& o : order) {
-    sorted.push_back(setups[o.setup]);
-    nearest.push_back(o.depth);
+  for (const std::uint64_t o : order_) {
+    sorted_.push_back(setups[o & ((std::uint64_t{1} << indexBits) - 1)]);
+    nearest.push_back(o >> indexBits);
   }
-  setups = std::move(sorted);
+  setups.swap(sorted_);
 }
 
 }  // namespace copeel::cpu

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/cpu/edges.h"
 #include "core/cpu/frame.h"
 #include "core/cpu/kernels.h"
 
@@ -23,6 +24,7 @@ struct TileObject {
   std::uint32_t object;                     // of the scene
   std::uint32_t firstReference, lastReference;
   bool keep = true;                         // cleared by a fold that has no use for the object in this tile
+  bool mirrored = false;                    // after setUp: its faces are turned inside out
   double least = 0, most = 0;               // after setUp: bounds of its order values in the tile (depth_planes.h)
 };
 
@@ -33,7 +35,7 @@ class Tile {
   // Sets the triangles of the kept objects up, and finds their depths.
   void setUp(const Frame& frame);
   // Drops the triangles of objects that are no longer kept and those wholly beyond `farthest`; scales depths to keys.
-  void finish(const Frame& frame, double farthest, bool decideAllExactly);
+  void finish(double farthest, bool decideAllExactly);
   // Orders the setups by nearest depth, so that they can be met front to back.
   void orderByDepth();
 
@@ -52,14 +54,26 @@ class Tile {
   static constexpr std::uint64_t kCoarse = 4096;   // key units; below, all slots of a tile carry one common bound
 
  private:
-  void addTriangle(const Frame& frame, TileObject& object, std::uint32_t objectIndex, std::uint32_t reference);
-  void scaleDepths(const Frame& frame, bool decideAllExactly);
+  void gather(const Frame& frame, std::uint32_t objectIndex, std::uint32_t reference, int at);
+  void setUpBatch(const Frame& frame, int count);
+  void addEdges(int at);
+  void addDepth(const DepthPlane& plane, double u, double v, TileObject& object);
+  void scaleDepths(double least, double most, bool decideAllExactly);
 
   std::span<const std::uint32_t> references_;
+  struct Gathered {
+    std::uint32_t object;                   // index into objects
+    std::uint32_t primitive, planeClass;
+  };
+  EdgeBatch edges_;
+  Gathered gathered_[kEdgeBatch];
   struct Range {
-    double least, most;
+    double least, most, error;
   };
   std::vector<Range> ranges_;               // order values of each setup in the tile
+  double leastError_ = 0;                   // of all slots
+  std::vector<std::uint64_t> order_;        // of orderByDepth, kept for their memory
+  std::vector<TriangleSetup> sorted_;
 };
 
 }  // namespace copeel::cpu

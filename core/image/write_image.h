@@ -9,7 +9,7 @@
 
 namespace copeel {
 
-void writePng(const std::string& path, const Image<Rgb8>& image);                // 8-bit RGB
+void writePng(const std::string& path, const Image<Rgb8>& image);                // 8-bit RGB, or indexed where 256 colours are enough
 void writePfm(const std::string& path, const Image<float>& image);               // float32, little-endian, bottom row first, +inf kept
 void writePgm(const std::string& path, const Image<std::uint16_t>& image);       // 16-bit binary, big-endian as PGM says
 

@@ -25,6 +25,9 @@ struct Mesh {
   }
 };
 
-Box boundingBox(const Mesh& mesh);
+// For each vertex, whether a triangle uses it: 1 or 0.
+std::vector<std::uint8_t> usedVertices(const Mesh& mesh);
+
+Box boundingBox(const Mesh& mesh);   // of the vertices that are used
 
 }  // namespace copeel

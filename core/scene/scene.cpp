@@ -3,25 +3,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include "core/error.h"
 
 namespace copeel {
 
+namespace {
+
+bool fits(const glm::dvec3& p) {
+  return std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate && std::abs(p.z) <= kLargestCoordinate;
+}
+
+}  // namespace
+
 Scene::Scene(std::vector<Object> objects) : objects_(std::move(objects)) {
   std::uint64_t count = 0;
   firstPrimitive_.reserve(objects_.size() + 1);
+  std::unordered_map<const Mesh*, std::vector<std::uint8_t>> usedOfMesh;
   for (const Object& object : objects_) {
-    count += object.mesh->triangles.size();
+    const Mesh& mesh = *object.mesh;
+    count += mesh.triangles.size();
     if (count >= kPrimitiveLimit) failMachine("the scene has more than {} triangles", kPrimitiveLimit);
     firstPrimitive_.push_back(static_cast<std::uint32_t>(count));
-    for (const glm::uvec3& t : object.mesh->triangles) {
-      for (int k = 0; k < 3; ++k) {
-        const glm::dvec3 p = transformPoint(object.worldFromObject, object.mesh->vertices[t[k]]);
-        const bool fits = std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate && std::abs(p.z) <= kLargestCoordinate;
-        if (!fits) failInput("object {}: a corner at ({}, {}, {}); coordinates reach to 1e30", &object - objects_.data() + 1, p.x, p.y, p.z);
-        bounds_.add(p);
-      }
+    // A vertex is placed once, however many triangles share it.
+    auto [used, fresh] = usedOfMesh.try_emplace(&mesh);
+    if (fresh) used->second = usedVertices(mesh);
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+      if (!used->second[v]) continue;
+      const glm::dvec3 p = transformPoint(object.worldFromObject, mesh.vertices[v]);
+      if (!fits(p)) failInput("object {}: a corner at ({}, {}, {}); coordinates reach to 1e30", &object - objects_.data() + 1, p.x, p.y, p.z);
+      bounds_.add(p);
     }
   }
 }

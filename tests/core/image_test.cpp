@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/image/write_image.h"
+#include "core/parallel.h"
 #include "tests/temporary_folder.h"
 
 namespace copeel {
@@ -44,6 +45,31 @@ TEST(Png, survivesAndIsDeterministic) {
   }
 }
 
+Image<Rgb8> withColors(int count, int width, int height) {
+  Image<Rgb8> image(width, height);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const auto color = static_cast<std::uint32_t>(i * i / 977 % static_cast<std::size_t>(count)) * 0x010307u;
+    image.pixels[i] = {static_cast<std::uint8_t>(color >> 16), static_cast<std::uint8_t>(color >> 8), static_cast<std::uint8_t>(color)};
+  }
+  return image;
+}
+
+TEST(Png, paletteAndStripsKeepEveryPixelWhateverTheThreads) {
+  const TemporaryFolder folder;
+  constexpr char kRgb = 2, kIndexed = 3;
+  for (const auto& [count, kind] : {std::pair(1, kIndexed), std::pair(2, kIndexed), std::pair(256, kIndexed), std::pair(257, kRgb), std::pair(5000, kRgb)}) {
+    // The smaller picture is one strip, the larger one nine, the last of them short.
+    for (const auto& [width, height] : {std::pair(641, 97), std::pair(1031, 1009)}) {
+      const Image<Rgb8> image = withColors(count, width, height);
+      Threads(1).execute([&] { writePng(folder.file("1.png"), image); });
+      Threads(3).execute([&] { writePng(folder.file("3.png"), image); });
+      const std::string content = contentOf(folder.file("1.png"));
+      EXPECT_EQ(content.at(25), kind) << count;
+      EXPECT_TRUE(content == contentOf(folder.file("3.png"))) << count;
+      EXPECT_TRUE(readPng(folder.file("1.png")).pixels == image.pixels) << count;
+    }
+  }
+}
 
 TEST(Png, everyTruncationIsRefused) {
   const TemporaryFolder folder;

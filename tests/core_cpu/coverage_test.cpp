@@ -4,13 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/meshes.h"
+#include "tests/support/samples.h"
 #include "tests/support/stacks.h"
 #include "tests/support/views.h"
 
 namespace copeel::test {
 namespace {
-
-using Wide = __int128;
 
 // One pixel of the image plane is one unit of x and y; the triangle soup lies in planes z = const.
 View flatView(int width, int height) {
@@ -22,25 +21,34 @@ View flatView(int width, int height) {
   return view;
 }
 
-// The top-left rule spelt out: a sample on an edge is covered when the edge is a top or a left one.
-bool covers(const glm::ivec2 (&corner)[3], Wide x, Wide y) {
-  const auto edge = [&](int i, Wide px, Wide py) {
-    const glm::ivec2 a = corner[i], b = corner[(i + 1) % 3];
-    return (Wide(b.x) - a.x) * (py - a.y) - (Wide(b.y) - a.y) * (px - a.x);
-  };
-  const Wide area = edge(0, corner[2].x, corner[2].y);
-  if (area == 0) return false;
-  for (int i = 0; i < 3; ++i) {
-    const Wide e = area > 0 ? edge(i, x, y) : -edge(i, x, y);
-    if (e < 0) return false;
-    if (e > 0) continue;
-    // Inside lies to the right of a left edge and, y pointing down, below a top edge.
-    glm::ivec2 a = corner[i], b = corner[(i + 1) % 3];
-    if (area < 0) std::swap(a, b);
-    const bool left = b.y < a.y, top = b.y == a.y && b.x > a.x;
-    if (!left && !top) return false;
+struct Compared {
+  int triangles = 0, covered = 0;
+};
+
+// Every triangle of a soup covers the samples that its snapped corners hold, and no others.
+Compared compareSamples(const Mesh& soup, const cpu::Frame& frame) {
+  const Stacks stacks = stacksOf(frame);
+  const int bits = frame.projection.grid.bits;
+  Compared compared;
+  for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+    const glm::ivec2* first = &frame.projection.vertices[3 * t];
+    const glm::ivec2 corner[3] = {first[0], first[1], first[2]};
+    if (corner[0].x == cpu::kOffGrid || corner[1].x == cpu::kOffGrid || corner[2].x == cpu::kOffGrid) continue;
+    ++compared.triangles;
+    for (int y = 0; y < frame.view.height; ++y) {
+      for (int x = 0; x < frame.view.width; ++x) {
+        bool found = false;
+        for (const Group& group : stacks.at(x, y)) {
+          for (const Crossing& c : group) found |= c.primitive == t;
+        }
+        const bool expected = covers(corner, std::int64_t{x} << bits, std::int64_t{y} << bits);
+        EXPECT_EQ(found, expected) << "triangle " << t << " at " << x << ", " << y;
+        if (found != expected) return compared;
+        compared.covered += expected;
+      }
+    }
   }
-  return true;
+  return compared;
 }
 
 struct Kind {
@@ -69,35 +77,42 @@ TEST_P(RandomTriangles, coverExactlyTheSamplesOfTheirSnappedCorners) {
   const PlaneClasses planes(scene, 0);
   const View view = flatView(image.x, image.y);
   const cpu::Frame frame(scene, planes, view);
-  const Stacks stacks = stacksOf(frame);
-
-  int compared = 0, covered = 0;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const glm::ivec2 corner[3] = {frame.projection.vertices[3 * t], frame.projection.vertices[3 * t + 1], frame.projection.vertices[3 * t + 2]};
-    if (corner[0].x == cpu::kOffGrid || corner[1].x == cpu::kOffGrid || corner[2].x == cpu::kOffGrid) continue;
-    ++compared;
-    for (int y = 0; y < image.y; ++y) {
-      for (int x = 0; x < image.x; ++x) {
-        bool found = false;
-        for (const Group& group : stacks.at(x, y)) {
-          for (const Crossing& c : group) found |= c.primitive == t;
-        }
-        const int bits = frame.projection.grid.bits;
-        const bool expected = covers(corner, Wide(x) << bits, Wide(y) << bits);
-        ASSERT_EQ(found, expected) << "triangle " << t << " at " << x << ", " << y;
-        covered += expected;
-      }
-    }
-  }
+  const Compared compared = compareSamples(mesh, frame);
   // In an image of one pixel the large ones reach past the guard band, and the tiny ones miss the sample.
-  EXPECT_TRUE(compared > 3 || image.x == 1);
-  EXPECT_TRUE(covered > 0 || image.x == 1);
+  EXPECT_TRUE(compared.triangles > 3 || image.x == 1);
+  EXPECT_TRUE(compared.covered > 0 || image.x == 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, RandomTriangles,
                          testing::Combine(testing::Values(glm::ivec2(1, 1), glm::ivec2(17, 33), glm::ivec2(64, 64), glm::ivec2(130, 70)),
                                           testing::Values(Kind{"tiny", 0.6, 0}, Kind{"small", 3, 0.1}, Kind{"medium", 20, 0.2},
                                                           Kind{"large", 150, 0.5}, Kind{"needles", 80, 0})));
+
+// Small triangles are taken in windows that have the shape of their bounds, large ones block by block: every shape around the change, laid
+// across the borders of blocks and tiles, among them the slivers that cover nothing.
+TEST(Coverage, boundsOfEveryShapeWhereverTheyLie) {
+  std::mt19937 random(11);
+  for (int width = 1; width <= 34; ++width) {
+    Mesh mesh;
+    const auto add = [&](glm::dvec2 from, glm::dvec2 to, glm::dvec2 third) {
+      const auto first = static_cast<unsigned>(mesh.vertices.size());
+      for (const glm::dvec2 p : {from, to, third}) mesh.vertices.emplace_back(p.x, -p.y, first);
+      mesh.triangles.emplace_back(first, first + 1, first + 2);
+    };
+    for (int height = 1; height <= 34; ++height) {
+      const glm::dvec2 at(random() % 40 + 0.3, random() % 30 + 0.3), size(width, height);
+      add(at, at + glm::dvec2(size.x, 0), at + size);
+      add(at, at + size, at + size * 0.5 + glm::dvec2(0.4, 0));
+    }
+    const Scene scene({{share(mesh)}});
+    const PlaneClasses planes(scene, 0);
+    const View view = flatView(70, 60);
+    const Compared compared = compareSamples(mesh, cpu::Frame(scene, planes, view));
+    ASSERT_FALSE(HasFailure()) << "width " << width;
+    EXPECT_EQ(compared.triangles, 68);
+    EXPECT_GT(compared.covered, 0);
+  }
+}
 
 TEST(Coverage, cornersAreSnappedToTheNearestGridPoint) {
   const Scene scene({{share(sphere(10, 23, 11))}});

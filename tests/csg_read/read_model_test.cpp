@@ -157,6 +157,33 @@ TEST_F(Files, scadErrorsAreOneLine) {
   EXPECT_EQ(failure(bad, ExitCode::Machine), "no-such-openscad: cannot be run: No such file or directory");
 }
 
+// A program in openscad's place: a shell script whose $2 is the .csg to be written.
+TEST_F(Files, whatOpenscadSaysAfterItsTextCountsToo) {
+  const std::string scad = write("part.scad", "cube(1);");
+  const auto openscadIs = [&](const std::string& script) {
+    options_.openscad = write("openscad", "#!/bin/sh\n" + script + "\n");
+    std::filesystem::permissions(options_.openscad, std::filesystem::perms::owner_all);
+  };
+  const auto failure = [&](ExitCode code) { return failureOf([&] { readScad(scad, options_); }, code); };
+  // The text comes in pieces, and a warning after it.
+  openscadIs("exec 3>\"$2\"; echo 'union() {' >&3; sleep 0.02; echo 'cube(1); }' >&3; exec 3>&-; echo 'WARNING: late' >&2");
+  const Model model = readScad(scad, options_);
+  EXPECT_EQ(model.leaves.size(), 1u);
+  EXPECT_EQ(model.warnings, std::vector<std::string>{scad + ": late"});
+  openscadIs("echo 'cube(1);' >\"$2\"; sleep 0.02; echo 'ERROR: cause' >&2");
+  EXPECT_EQ(failure(ExitCode::Input), scad + ": cause");
+  openscadIs("echo 'cube(1);' >\"$2\"; sleep 0.02; exit 3");
+  EXPECT_EQ(failure(ExitCode::Machine), scad + ": openscad failed with code 3");
+  // A text cut short is the fault of what cut it.
+  openscadIs("echo 'cube(' >\"$2\"; kill -9 $$");
+  EXPECT_EQ(failure(ExitCode::Machine), scad + ": openscad failed with code 137");
+  openscadIs("exit 0");
+  EXPECT_EQ(failure(ExitCode::Machine), scad + ": openscad wrote nothing");
+  // More than a pipe holds.
+  openscadIs("for i in $(seq 20000); do echo 'cube(1);'; done >\"$2\"");
+  EXPECT_EQ(readScad(scad, options_).leaves.size(), 20000u);
+}
+
 TEST_F(Files, whatOpenscadMustEvaluateIsEvaluatedOnceAndKept) {
   SKIP_WITHOUT_OPENSCAD();
   write("tetra.off", kTetrahedron);

@@ -46,6 +46,10 @@ TEST(Bytes, chooseSimdChangesTheTarget) {
   }
   cpu::chooseSimd("best");
   EXPECT_EQ(targets.size(), 3u);
+  // The least of them has no vectors: "SCALAR", or Highway's emulation of them by loops.
+  cpu::chooseSimd("scalar");
+  EXPECT_TRUE(std::set<std::string>({"SCALAR", "EMU128"}).contains(cpu::simdInUse())) << cpu::simdInUse();
+  cpu::chooseSimd("best");
 }
 
 TEST(Bytes, everySimdTargetThreadCountAndRunGivesTheSame) {

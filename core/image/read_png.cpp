@@ -1,8 +1,5 @@
-// PNG through libpng. Writing is tuned for pictures that are shown once: one cheap filter and the lightest compression, for time; nothing in the
-// file depends on the clock or the machine, so equal images are equal files. libpng reports errors by longjmp: the functions that set the
-// jump hold no object with a destructor.
+// PNG through libpng. It reports errors by longjmp: the function that sets the jump holds no object with a destructor.
 #include <png.h>
-#include <zlib.h>
 
 #include <csetjmp>
 #include <cstring>
@@ -12,20 +9,14 @@
 #include "core/error.h"
 #include "core/formats/input_file.h"
 #include "core/image/write_image.h"
-#include "core/output_file.h"
 
 namespace copeel {
 namespace {
 
-// Of 9 levels and 5 filters, measured at 1024 x 768 for flat facets, smooth shading and facets of 3 pixels: level 2 without a filter takes 4.5, 6.8 and
-// 5.0 ms for 58, 144 and 82 KB; with "up" 6.0, 12.8 and 7.7 ms for 53, 167 and 67 KB; libpng's default 28 to 60 ms for 38, 107 and 38 KB.
-constexpr int kCompressionLevel = 2;
-constexpr int kFilter = PNG_FILTER_NONE;
 constexpr png_uint_32 kLargestPixelCount = 1u << 29;  // that a header may claim; 16384 x 16384 fits
 
-// What a libpng callback may reach: the bytes written or read so far, and the message of a failure.
+// What a libpng callback may reach: the bytes still to be read, and the message of a failure.
 struct PngStream {
-  std::vector<char>* output = nullptr;
   const char* input = nullptr;
   std::size_t inputLeft = 0;
   char message[128] = "";
@@ -39,47 +30,12 @@ void onError(png_structp png, png_const_charp message) {
 
 void onWarning(png_structp, png_const_charp) {}
 
-// The output's capacity is reserved beforehand; should it have to grow and fail, no C++ exception may cross libpng's C frames.
-void appendBytes(png_structp png, png_bytep bytes, std::size_t count) {
-  auto* stream = static_cast<PngStream*>(png_get_io_ptr(png));
-  bool done = true;
-  try {
-    stream->output->insert(stream->output->end(), bytes, bytes + count);
-  } catch (...) {
-    done = false;
-  }
-  if (!done) png_error(png, "not enough memory");
-}
-
 void takeBytes(png_structp png, png_bytep bytes, std::size_t count) {
   auto* stream = static_cast<PngStream*>(png_get_io_ptr(png));
   if (count > stream->inputLeft) png_error(png, "truncated");
   std::memcpy(bytes, stream->input, count);
   stream->input += count;
   stream->inputLeft -= count;
-}
-
-// False on failure, with the cause in the stream.
-bool encode(PngStream& stream, const Image<Rgb8>& image) {
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &stream, onError, onWarning);
-  png_infop info = png ? png_create_info_struct(png) : nullptr;
-  if (!info || setjmp(png_jmpbuf(png))) {
-    png_destroy_write_struct(&png, &info);
-    return false;
-  }
-  png_set_write_fn(png, &stream, appendBytes, nullptr);
-  png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-  png_set_IHDR(png, info, image.width, image.height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, kFilter);
-  png_set_compression_level(png, kCompressionLevel);
-  png_set_compression_strategy(png, Z_DEFAULT_STRATEGY);
-  png_set_compression_buffer_size(png, 1 << 16);
-  png_write_info(png, info);
-  for (int y = 0; y < image.height; ++y) png_write_row(png, &image.at(0, y).r);
-  png_write_end(png, nullptr);
-  png_destroy_write_struct(&png, &info);
-  return true;
 }
 
 // Every 8-bit (or smaller) kind becomes RGB; alpha is left out, colours keep their stored values whatever gamma the file claims.
@@ -94,6 +50,7 @@ void requestRgb(png_structp png, png_infop info) {
   png_read_update_info(png, info);
 }
 
+// False on failure, with the cause in the stream.
 bool decode(PngStream& stream, Image<Rgb8>& image, std::vector<png_bytep>& rows) {
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &stream, onError, onWarning);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
@@ -117,17 +74,6 @@ bool decode(PngStream& stream, Image<Rgb8>& image, std::vector<png_bytep>& rows)
 }
 
 }  // namespace
-
-void writePng(const std::string& path, const Image<Rgb8>& image) {
-  static_assert(sizeof(Rgb8) == 3, "rows are handed to libpng as they are");
-  OutputFile file(path);
-  std::vector<char> bytes;
-  bytes.reserve(image.pixels.size() + 4096);
-  PngStream stream{.output = &bytes};
-  if (!encode(stream, image)) failMachine("{}: cannot write: {}", path, stream.message);
-  file.write(std::as_bytes(std::span(bytes)));
-  file.commit();
-}
 
 Image<Rgb8> readPng(const std::string& path) {
   const InputFile file(path);
