@@ -2,13 +2,14 @@
 #pragma once
 
 #include "core/formats/input_file.h"
+#include "core/formats/read_mesh.h"
 #include "core/scene/mesh.h"
 
 namespace copeel {
 
-Mesh readObj(const Source& source);
+Mesh readObj(const Source& source, const ReadMeshOptions& options);
 Mesh readOff(const Source& source);
-Mesh readPly(const Source& source);
+Mesh readPly(const Source& source, const ReadMeshOptions& options);
 Mesh readStl(const Source& source);  // ascii or binary
 
 // What a first look at the bytes says; readMesh asks in this order. At most one is true of a sound file.

@@ -1,0 +1,67 @@
+#include "apps/oit/over_fold.h"
+
+#include <algorithm>
+
+namespace copeel::oit {
+
+bool OverFold::beginTile(cpu::Tile& tile) {
+  tile_ = &tile;
+  mayEnd_ = false;
+  if (tile.objects.empty()) {
+    const PixelResult nothing = single(nullptr, tile);
+    for (int y = tile.y0; y < tile.y0 + tile.height; ++y) {
+      for (int x = tile.x0; x < tile.x0 + tile.width; ++x) canvas_.put(x, y, nothing, tile);
+    }
+    return false;
+  }
+  for (const cpu::TileObject& object : tile.objects) mayEnd_ |= opaque_[object.object] != 0;
+  mayEnd_ = mayEnd_ && !canvas_.targets().counts();
+  return true;
+}
+
+double OverFold::narrowTile(cpu::Tile& tile) {
+  colors_.resize(std::max(colors_.size(), tile.slots.size()));
+  for (std::size_t i = 0; i < tile.slots.size(); ++i) colors_[i] = colorOf(tile.slots[i], tile.objects[tile.slots[i].object].object);
+  return std::numeric_limits<double>::infinity();
+}
+
+inline glm::vec4 OverFold::colorOf(const cpu::TileSlot& slot, std::uint32_t object) const {
+  const fold::BaseRange& range = tables_.ranges[object];
+  const std::uint32_t triangle = slot.primitive - scene_.firstPrimitive(object);
+  return fold::overShade(tables_.bases[range.first + std::size_t{range.stride} * triangle], tables_.shades[slot.planeClass]);
+}
+
+bool OverFold::closeGroup() {
+  result_.layers += static_cast<std::uint32_t>(groupCount_);
+  result_.largestGroup = std::max(result_.largestGroup, static_cast<std::uint32_t>(groupCount_));
+  for (; groupCount_ > 0; --groupCount_) {
+    const std::uint32_t slot = group_[groupCount_ - 1];
+    const glm::vec4& color = colors_[slot];
+    if (!result_.nearest && color.a > 0) result_.nearest = &tile_->slots[slot];
+    fold::overFragment(state_, color);
+  }
+  return fold::overEnough(state_) && mayEnd_;
+}
+
+void OverFold::finishResult() {
+  result_.color = fold::overResult(state_, background_);
+  result_.bytes = toRgb8(result_.color);
+  ready_ = true;
+}
+
+PixelResult OverFold::single(const cpu::TileSlot* slot, const cpu::Tile& tile) const {
+  PixelResult result;
+  fold::OverState state;
+  fold::overBegin(state);
+  if (slot) {
+    const glm::vec4 color = colorOf(*slot, tile.objects[slot->object].object);
+    fold::overFragment(state, color);
+    result.layers = result.largestGroup = 1;
+    if (color.a > 0) result.nearest = slot;
+  }
+  result.color = fold::overResult(state, background_);
+  result.bytes = toRgb8(result.color);
+  return result;
+}
+
+}  // namespace copeel::oit

@@ -1,0 +1,137 @@
+// From parts to a frame: one pass over the tiles a sample; what is of the pixel's centre has a pass of its own where samples are averaged.
+#include "apps/oit/render_oit.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <utility>
+
+#include "apps/oit/over_fold.h"
+#include "core/cpu/render_nearest.h"
+#include "core/cpu/render_tiles.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/scene/sample_offset.h"
+
+namespace copeel::oit {
+
+struct Renderer::State {
+  RenderOptions options;
+  Scene scene;
+  PlaneClasses planes;
+  fold::OverTables tables;
+  std::vector<std::uint8_t> opaque;     // per part: some face is
+  std::unique_ptr<Threads> threads;
+  Stats stats;
+
+  void prepare(const std::vector<Part>& parts);
+  void drawPass(const View& view, const Targets& targets);
+  void drawSamples(const View& view, Frame& frame);
+  glm::vec3 background() const { return glm::vec3(options.background[0], options.background[1], options.background[2]); }
+};
+
+void Renderer::State::prepare(const std::vector<Part>& parts) {
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<Object> objects;
+  for (const Part& part : parts) {
+    objects.push_back({part.mesh, part.worldFromObject});
+    if (part.faceColors.empty()) tables.addObject(part.color);
+    else tables.addObject(part.faceColors);
+    const auto isOpaque = [](const glm::vec4& color) { return color.a >= 1; };
+    opaque.push_back(part.faceColors.empty() ? isOpaque(part.color) : std::any_of(part.faceColors.begin(), part.faceColors.end(), isOpaque));
+  }
+  scene = Scene(std::move(objects));
+  planes = PlaneClasses(scene, options.coplanarTolerance);
+  stats.method = options.method;
+  stats.triangles = scene.primitiveCount();
+  stats.leaves = parts.size();
+  stats.planeClasses = planes.classes().size();
+  stats.prepareMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+void Renderer::State::drawPass(const View& view, const Targets& targets) {
+  tables.shades = fold::shadesOf(planes, view, options.lit);
+  const cpu::Frame frame(scene, planes, view);
+  const Canvas canvas(frame, targets);
+  const auto makeFold = [&] { return OverFold(frame, tables, opaque, background(), canvas); };
+  if (options.method == "zbuffer") {
+    const OverFold fold = makeFold();
+    cpu::renderNearest(frame, [&](int x, int y, const cpu::TileSlot* slot, const cpu::Tile& tile) {
+      canvas.put(x, y, fold.single(slot, tile), tile);
+    });
+    return;
+  }
+  cpu::TileOptions tileOptions;
+  tileOptions.decideAllExactly = options.decideAllExactly;
+  const cpu::TileCounts counts = cpu::renderTiles(frame, tileOptions, makeFold);
+  stats.fragments = stats.fragmentsCaptured = counts.fragments;
+  stats.depthComplexityMax = counts.depthComplexityMax;
+  stats.coveredPixels = counts.coveredPixels;
+  stats.coplanarPixels = counts.walk.coplanarPixels;
+  stats.decidedExactly = counts.walk.decidedExactly;
+}
+
+// The mean of the samples, rounded once.
+void Renderer::State::drawSamples(const View& view, Frame& frame) {
+  Image<glm::vec3> sum(view.width, view.height, glm::vec3(0));
+  Targets targets;
+  targets.sum = &sum;
+  for (int i = 0; i < options.samples; ++i) {
+    View shifted = view;
+    shifted.offset = sampleOffset(i, options.samples);
+    drawPass(shifted, targets);
+  }
+  parallelFor(sum.pixels.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i) {
+      sum.pixels[i] /= static_cast<float>(options.samples);
+      frame.color.pixels[i] = toRgb8(sum.pixels[i]);
+    }
+  });
+  if (options.wantFloats) frame.floats = std::move(sum);
+}
+
+Renderer::Renderer(std::vector<Part> parts, const RenderOptions& options) : state_(std::make_unique<State>()) {
+  if (options.method != "tile" && options.method != "zbuffer") failUsage("--method {}: not a method of the cpu back end", options.method);
+  state_->options = options;
+  state_->threads = std::make_unique<Threads>(options.threads);
+  state_->threads->execute([&] { state_->prepare(parts); });
+}
+
+Renderer::~Renderer() = default;
+
+const Box& Renderer::bounds() const { return state_->scene.bounds(); }
+const Stats& Renderer::stats() const { return state_->stats; }
+
+Frame Renderer::draw(const View& view) {
+  State& state = *state_;
+  const RenderOptions& options = state.options;
+  Frame frame;
+  Targets targets;   // of the pixel's centre
+  const auto want = [&](bool wanted, auto& image, auto*& target, auto start) {
+    if (!wanted) return;
+    image = std::decay_t<decltype(image)>(view.width, view.height, start);
+    target = &image;
+  };
+  frame.color = Image<Rgb8>(view.width, view.height);
+  want(options.wantDepth, frame.depth, targets.depth, std::numeric_limits<float>::infinity());
+  want(options.wantIds, frame.ids, targets.ids, std::uint16_t{0});
+  want(options.wantLayers, frame.layers, targets.layers, std::uint16_t{0});
+  want(options.wantCoplanar, frame.coplanar, targets.coplanar, std::uint16_t{0});
+  const bool wantsCentre = options.wantDepth || options.wantIds || targets.counts();
+  if (options.samples <= 1) {
+    targets.color = &frame.color;
+    want(options.wantFloats, frame.floats, targets.sum, glm::vec3(0));
+  }
+  state.threads->execute([&] {
+    // The centre's pass comes last: the counts of the statistics are its own.
+    if (options.samples > 1) state.drawSamples(view, frame);
+    if (options.samples <= 1 || wantsCentre) state.drawPass(view, targets);
+  });
+  state.stats.width = view.width;
+  state.stats.height = view.height;
+  state.stats.passes = static_cast<std::uint64_t>(std::max(options.samples, 1)) + (options.samples > 1 && wantsCentre);
+  state.stats.memoryBytes = peakMemoryBytes();
+  return frame;
+}
+
+}  // namespace copeel::oit
