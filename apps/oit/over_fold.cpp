@@ -7,16 +7,9 @@ namespace copeel::oit {
 bool OverFold::beginTile(cpu::Tile& tile) {
   tile_ = &tile;
   mayEnd_ = false;
-  if (tile.objects.empty()) {
-    const PixelResult nothing = single(nullptr, tile);
-    for (int y = tile.y0; y < tile.y0 + tile.height; ++y) {
-      for (int x = tile.x0; x < tile.x0 + tile.width; ++x) canvas_.put(x, y, nothing, tile);
-    }
-    return false;
-  }
   for (const cpu::TileObject& object : tile.objects) mayEnd_ |= opaque_[object.object] != 0;
   mayEnd_ = mayEnd_ && !canvas_.targets().counts();
-  return true;
+  return !tile.objects.empty();
 }
 
 double OverFold::narrowTile(cpu::Tile& tile) {
@@ -43,24 +36,26 @@ bool OverFold::closeGroup() {
   return fold::overEnough(state_) && mayEnd_;
 }
 
+inline void OverFold::setColor(PixelResult& result, const fold::OverState& state) const {
+  const glm::dvec3 color = fold::overResult(state, background_);
+  result.color = glm::vec3(color);
+  result.bytes = rgb8Of(fold::overLevels(color));
+}
+
 void OverFold::finishResult() {
-  result_.color = fold::overResult(state_, background_);
-  result_.bytes = toRgb8(result_.color);
+  setColor(result_, state_);
   ready_ = true;
 }
 
-PixelResult OverFold::single(const cpu::TileSlot* slot, const cpu::Tile& tile) const {
+PixelResult OverFold::single(const cpu::TileSlot& slot, const cpu::Tile& tile) const {
   PixelResult result;
   fold::OverState state;
   fold::overBegin(state);
-  if (slot) {
-    const glm::vec4 color = colorOf(*slot, tile.objects[slot->object].object);
-    fold::overFragment(state, color);
-    result.layers = result.largestGroup = 1;
-    if (color.a > 0) result.nearest = slot;
-  }
-  result.color = fold::overResult(state, background_);
-  result.bytes = toRgb8(result.color);
+  const glm::vec4 color = colorOf(slot, tile.objects[slot.object].object);
+  fold::overFragment(state, color);
+  result.layers = result.largestGroup = 1;
+  if (color.a > 0) result.nearest = &slot;
+  setColor(result, state);
   return result;
 }
 

@@ -16,6 +16,10 @@
 
 namespace copeel::oit {
 
+inline Rgb8 rgb8Of(const glm::uvec3& levels) {
+  return {static_cast<std::uint8_t>(levels.x), static_cast<std::uint8_t>(levels.y), static_cast<std::uint8_t>(levels.z)};
+}
+
 // What a pixel is found to be.
 struct PixelResult {
   glm::vec3 color{0};                         // 0 … 255, over the background
@@ -25,16 +29,17 @@ struct PixelResult {
   std::uint32_t largestGroup = 0;             // fragments at one depth
 };
 
-// Where a pass leaves its pixels; null: not wanted. Every pixel is written once.
+// Where a pass leaves its pixels; null: not wanted. Images start as what shows where nothing is, and a pixel with fragments is written once.
 struct Targets {
   Image<Rgb8>* color = nullptr;
-  Image<glm::vec3>* sum = nullptr;            // added to
-  Image<float>* depth = nullptr;              // starts as +inf
-  Image<std::uint16_t>* ids = nullptr;        // starts as 0, as do the following
+  Image<glm::vec3>* floats = nullptr;
+  Image<float>* depth = nullptr;
+  Image<std::uint16_t>* ids = nullptr;
   Image<std::uint16_t>* layers = nullptr;
   Image<std::uint16_t>* coplanar = nullptr;
 
   bool counts() const { return layers || coplanar; }
+  bool any() const { return color || floats || depth || ids || counts(); }
 };
 
 class Canvas {
@@ -43,7 +48,7 @@ class Canvas {
 
   void put(int x, int y, const PixelResult& result, const cpu::Tile& tile) const {
     if (targets_.color) targets_.color->at(x, y) = result.bytes;
-    if (targets_.sum) targets_.sum->at(x, y) += result.color;
+    if (targets_.floats) targets_.floats->at(x, y) = result.color;
     if (targets_.counts()) putCounts(x, y, result);
     if (result.nearest && (targets_.depth || targets_.ids)) putNearest(x, y, *result.nearest, tile);
   }
@@ -90,15 +95,17 @@ class OverFold {
   }
   bool closeGroup();
   void endPixel(int x, int y) {
+    if (result_.layers == 0) return;
     if (!ready_) finishResult();
     canvas_.put(x, y, result_, *tile_);
   }
 
-  // The z-buffer's pixel: one fragment, or none.
-  PixelResult single(const cpu::TileSlot* slot, const cpu::Tile& tile) const;
+  // The z-buffer's pixel, which has one fragment.
+  PixelResult single(const cpu::TileSlot& slot, const cpu::Tile& tile) const;
 
  private:
   glm::vec4 colorOf(const cpu::TileSlot& slot, std::uint32_t object) const;
+  void setColor(PixelResult& result, const fold::OverState& state) const;
   void finishResult();
 
   const Scene& scene_;

@@ -1,7 +1,7 @@
 // The fold of transparency: fragments blended by "over", in the common subset of C++ and GLSL (C++: core/fold/over.h).
 //
 // Based on: Porter, Duff. Compositing Digital Images. SIGGRAPH 1984. Changed: the state is double, so that a stack cut in two and joined (dual
-// peeling) differs from one walked front to back by 1e-13 of a level; the result is float, which rounds that away, and 8 bits come last.
+// peeling) differs from one walked front to back by 1e-13 of a level, which no 8-bit pixel shows.
 // Fragments come front to back (overFragment), or back to front (overBehind). Of coplanar ones, the later primitive lies in front. Lost: what
 // lies behind a transmittance of 0. Cost: about 10 operations a fragment, 32 bytes a state.
 
@@ -55,8 +55,16 @@ FOLD_FUNCTION OverState overJoin(OverState front, OverState back) {
 // Nothing behind can be seen.
 FOLD_FUNCTION bool overEnough(OverState state) { return state.transmittance == 0.0; }
 
-// 0 … 255 over the background; an 8-bit channel is this rounded to the nearest whole number.
-FOLD_FUNCTION vec3 overResult(OverState state, vec3 background) {
+// 0 … 255 over the background.
+FOLD_FUNCTION dvec3 overResult(OverState state, vec3 background) {
   PRECISE dvec3 color = state.color + dvec3(background) * state.transmittance;
-  return vec3(color);
+  return color;
+}
+
+// The nearest levels of 8 bits. Halves go up, and so does what the rounding of a long stack may have left just below one: alphas such as 0.5
+// make halves often, and a stack joined from two parts must not show there.
+FOLD_FUNCTION uvec3 overLevels(dvec3 color) {
+  const double kHalfUp = 0.5 + 1.0 / 8589934592.0;   // 2^-33 of a level
+  PRECISE dvec3 up = clamp(color, dvec3(0.0), dvec3(255.0)) + dvec3(kHalfUp);
+  return uvec3(up);
 }

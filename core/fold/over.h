@@ -11,7 +11,7 @@
 
 namespace copeel::fold {
 
-using glm::dvec3, glm::min, glm::vec3, glm::vec4;
+using glm::clamp, glm::dvec3, glm::min, glm::uvec3, glm::vec3, glm::vec4;
 
 #include "core/fold/over.glsl"
 
