@@ -2,5 +2,5 @@
 #include "reader_fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return copeel::fuzzReader([](const copeel::Source& source) { return copeel::readObj(source, {.colors = true}); }, data, size);
+  return copeel::fuzzReader(copeel::readObj, data, size);
 }

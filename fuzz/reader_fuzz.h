@@ -9,11 +9,9 @@
 
 namespace copeel {
 
-// `read` takes a Source, and what else the format's reader is given.
-template <class Read>
-int fuzzReader(Read read, const std::uint8_t* data, std::size_t size) {
+inline int fuzzReader(Mesh (*read)(const Source&, const ReadMeshOptions&), const std::uint8_t* data, std::size_t size) {
   try {
-    const Mesh mesh = read(Source({reinterpret_cast<const char*>(data), size}, "fuzz"));
+    const Mesh mesh = read(Source({reinterpret_cast<const char*>(data), size}, "fuzz"), {.colors = true});
     for (const glm::uvec3& t : mesh.triangles) {
       for (int i = 0; i < 3; ++i) COPEEL_CHECK(t[i] < mesh.vertices.size(), "index {}", t[i]);
     }

@@ -19,8 +19,8 @@ Mesh readAny(const Source& source, const ReadMeshOptions& options) {
   const std::string_view bytes(source.data(), source.size());
   if (bytes.starts_with("\xef\xbb\xbf")) return readAny(Source(std::span(bytes).subspan(3), source.name()), options);
   if (looksLikePly(source)) return readPly(source, options);
-  if (looksLikeStl(source)) return readStl(source);
-  if (looksLikeOff(source)) return readOff(source);
+  if (looksLikeStl(source)) return readStl(source, options);
+  if (looksLikeOff(source)) return readOff(source, options);
   if (looksLikeObj(source)) return readObj(source, options);
   source.fail("not a mesh in OBJ, OFF, PLY or STL form, or a truncated binary STL ({} bytes)", source.size());
 }
