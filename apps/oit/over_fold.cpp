@@ -24,18 +24,6 @@ inline glm::vec4 OverFold::colorOf(const cpu::TileSlot& slot, std::uint32_t obje
   return fold::overShade(tables_.bases[range.first + std::size_t{range.stride} * triangle], tables_.shades[slot.planeClass]);
 }
 
-bool OverFold::closeGroup() {
-  result_.layers += static_cast<std::uint32_t>(groupCount_);
-  result_.largestGroup = std::max(result_.largestGroup, static_cast<std::uint32_t>(groupCount_));
-  for (; groupCount_ > 0; --groupCount_) {
-    const std::uint32_t slot = group_[groupCount_ - 1];
-    const glm::vec4& color = colors_[slot];
-    if (!result_.nearest && color.a > 0) result_.nearest = &tile_->slots[slot];
-    fold::overFragment(state_, color);
-  }
-  return fold::overEnough(state_) && mayEnd_;
-}
-
 inline void OverFold::setColor(PixelResult& result, const fold::OverState& state) const {
   const glm::dvec3 color = fold::overResult(state, background_);
   result.color = glm::vec3(color);

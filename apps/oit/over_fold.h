@@ -93,7 +93,13 @@ class OverFold {
     if (groupCount_ == group_.size()) group_.resize(2 * group_.size());
     group_[groupCount_++] = slot;
   }
-  bool closeGroup();
+  bool closeGroup() {
+    const auto count = static_cast<std::uint32_t>(groupCount_);
+    result_.layers += count;
+    if (count > result_.largestGroup) result_.largestGroup = count;
+    for (; groupCount_ > 0; --groupCount_) blend(group_[groupCount_ - 1]);
+    return mayEnd_ && fold::overEnough(state_);
+  }
   void endPixel(int x, int y) {
     if (result_.layers == 0) return;
     if (!ready_) finishResult();
@@ -104,6 +110,11 @@ class OverFold {
   PixelResult single(const cpu::TileSlot& slot, const cpu::Tile& tile) const;
 
  private:
+  void blend(std::uint32_t slot) {
+    const glm::vec4& color = colors_[slot];
+    if (!result_.nearest && color.a > 0) result_.nearest = &tile_->slots[slot];
+    fold::overFragment(state_, color);
+  }
   glm::vec4 colorOf(const cpu::TileSlot& slot, std::uint32_t object) const;
   void setColor(PixelResult& result, const fold::OverState& state) const;
   void finishResult();
