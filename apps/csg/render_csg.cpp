@@ -7,8 +7,6 @@
 #include <limits>
 #include <unordered_map>
 
-#include <sys/resource.h>
-
 #include "apps/csg/bounds.h"
 #if COPEEL_GL
 #include "apps/csg/gl_pass.h"
@@ -19,6 +17,7 @@
 #include "core/formats/read_mesh.h"
 #include "core/methods/method.h"
 #include "core/parallel.h"
+#include "core/scene/sample_offset.h"
 
 namespace copeel::csg {
 namespace {
@@ -26,12 +25,6 @@ namespace {
 double nowMs() {
   using namespace std::chrono;
   return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
-}
-
-std::uint64_t peakMemoryBytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 double alphaOfLook(const void* look, std::uint32_t leaf, std::uint32_t part) { return static_cast<const Look*>(look)->alpha(leaf, part); }
@@ -55,17 +48,6 @@ std::shared_ptr<const Mesh> sectionMesh(const Section& section, const Box& bound
     mesh->facets.insert(mesh->facets.end(), {f, f});
   }
   return mesh;
-}
-
-// Spreads samples evenly over the pixel; offsets are multiples of 2^-16, so that pixel coordinates stay exact.
-// Based on: Roberts. The unreasonable effectiveness of quasirandom sequences. 2018 (R2 sequence).
-glm::dvec2 sampleOffset(int index, int count) {
-  if (count == 1) return {0, 0};
-  const auto fraction = [&](double step) {
-    const double x = 0.5 + index * step;
-    return std::floor((x - std::floor(x)) * 65536) / 65536 - 0.5;
-  };
-  return {fraction(0.7548776662466927), fraction(0.5698402909980532)};
 }
 
 }  // namespace
@@ -230,21 +212,10 @@ class FrameSink : public PixelSink {
     if (solid == surfaces.end()) return;
     if (shown_) shown_->at(x, y) = {solid->leaf, solid->planeClass};
     if (!frame_.ids.pixels.empty()) frame_.ids.at(x, y) = static_cast<std::uint16_t>(std::min<std::uint32_t>(solid->leaf + 1, 65535));
-    if (!frame_.depth.pixels.empty()) frame_.depth.at(x, y) = depthAt(solid->planeClass, x, y);
-  }
-  static Rgb8 toRgb8(const glm::dvec3& color) {
-    const auto byte = [](double v) { return static_cast<std::uint8_t>(std::clamp(v, 0.0, 255.0) + 0.5); };
-    return {byte(color.r), byte(color.g), byte(color.b)};
+    if (!frame_.depth.pixels.empty()) frame_.depth.at(x, y) = static_cast<float>(distanceAt(depths_[solid->planeClass], *view_, x, y));
   }
 
  private:
-  float depthAt(std::uint32_t planeClass, int x, int y) const {
-    const DepthPlane& plane = depths_[planeClass];
-    const double u = x + 0.5 + view_->offset.x - view_->width * 0.5, v = y + 0.5 + view_->offset.y - view_->height * 0.5;
-    const double s = std::clamp(plane.a * u + (plane.b * v + plane.c), double(plane.lo), double(plane.hi));
-    return static_cast<float>(distanceOf(s, *view_));
-  }
-
   Frame& frame_;
   const Look& look_;
   Image<glm::vec3>* sum_;
@@ -267,7 +238,7 @@ void Renderer::State::drawSamples(const View& view, Image<Rgb8>& color) {
   }
   const std::array<double, 3>& b = options.scheme.background;
   for (std::size_t i = 0; i < sum.pixels.size(); ++i) {
-    color.pixels[i] = FrameSink::toRgb8(glm::dvec3(b[0], b[1], b[2]) + glm::dvec3(sum.pixels[i]) / double(options.samples));
+    color.pixels[i] = toRgb8(glm::dvec3(b[0], b[1], b[2]) + glm::dvec3(sum.pixels[i]) / double(options.samples));
   }
 }
 
@@ -294,7 +265,7 @@ Frame Renderer::draw(const View& view) {
   state.stats.passes = 0;
   Frame frame;
   const std::array<double, 3>& b = options.scheme.background;
-  frame.color = Image<Rgb8>(view.width, view.height, FrameSink::toRgb8({b[0], b[1], b[2]}));
+  frame.color = Image<Rgb8>(view.width, view.height, toRgb8({b[0], b[1], b[2]}));
   if (options.wantDepth) frame.depth = Image<float>(view.width, view.height, std::numeric_limits<float>::infinity());
   if (options.wantIds) frame.ids = Image<std::uint16_t>(view.width, view.height);
   Image<Shown> shown;

@@ -71,6 +71,16 @@ TEST_F(Usage, RefusedWithOneLine) {
       {"csg", "a.stl:alpha=2"},
       {"csg", "a.stl:color=red"},
       {"csg", "a.stl:alpha=1,shine=3"},
+      {"oit"},
+      {"oit", "a.stl:alpha=2"},
+      {"oit", "a.stl:color=red"},
+      {"oit", "a.stl", "--alpha", "-0.1"},
+      {"oit", "a.stl", "--alpha", "half"},
+      {"oit", "a.stl", "--color", "red"},
+      {"oit", "a.stl", "--expr", "A"},
+      {"oit", "a.stl", "--method", "nonsense"},
+      {"oit", "part.csg", "--layers", "part.csg"},
+      {"oit", "part.csg", "--layers", "l.pgm", "--coplanar", "l.pgm"},
   };
   for (const Words& words : cases) {
     SCOPED_TRACE(::testing::PrintToString(words));
@@ -80,7 +90,7 @@ TEST_F(Usage, RefusedWithOneLine) {
 }
 
 TEST_F(Usage, WhatIsNotBuiltSaysSo) {
-  for (const char* command : {"oit", "wireframe", "collide", "coplanar", "view", "validate", "bench"}) {
+  for (const char* command : {"wireframe", "collide", "coplanar", "view", "validate", "bench"}) {
     const Outcome outcome = run({command, "a.stl", "--alpha", "0.5"});
     expectFailure(outcome, 3);
     EXPECT_NE(outcome.standardError.find("not built in this version"), std::string::npos);
