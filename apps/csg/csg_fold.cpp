@@ -5,6 +5,11 @@
 #include <limits>
 
 namespace copeel::csg {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+}  // namespace
 
 bool CsgFold::beginTile(cpu::Tile& tile) {
   listLeaves(tile);
@@ -20,44 +25,59 @@ bool CsgFold::beginTile(cpu::Tile& tile) {
   return true;
 }
 
-// Bottom up, where in depth a gate can be true at all: a union where any input can, an intersection where all can. Top down, where that
-// matters. A leaf that can only be inside elsewhere is dropped: it is outside wherever anyone looks.
-double CsgFold::narrowTile(cpu::Tile& tile) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  if (eye_.any) return kFar;   // some leaf is inside from the start
+// Where in depth a leaf can be inside, given where it has faces: one that is not closed may be left open for good.
+cpu::DepthRange CsgFold::windowOf(std::uint32_t leaf, const cpu::DepthRange& range) const {
+  return {range.least, closed_[leaves_[leaf]] || range.empty() ? range.most : kFar};
+}
+
+// Bottom up, where in depth a gate can be true at all: a union where any input can, an intersection where all can. Returns beyond which
+// depth no result can be true.
+template <class RangeOf>
+double CsgFold::findWindows(RangeOf rangeOf) {
   const auto nodes = pruned_.nodes();
   const auto anyInput = [&](std::uint32_t n) { return nodes[n].threshold - nodes[n].initial == 1; };
   windows_.clear();
-  for (std::uint32_t n = 0; n < nodes.size(); ++n) windows_.push_back(anyInput(n) ? Window{kFar, -kFar} : Window{-kFar, kFar});
-  const auto feed = [&](std::uint32_t n, const Window& input) {
-    Window& window = windows_[n];
-    window = anyInput(n) ? Window{std::min(window.least, input.least), std::max(window.most, input.most)}
-                         : Window{std::max(window.least, input.least), std::min(window.most, input.most)};
+  for (std::uint32_t n = 0; n < nodes.size(); ++n) windows_.push_back(anyInput(n) ? cpu::DepthRange{} : cpu::DepthRange{-kFar, kFar});
+  const auto feed = [&](std::uint32_t n, const cpu::DepthRange& input) {
+    cpu::DepthRange& window = windows_[n];
+    if (anyInput(n)) window.add(input.least, input.most);
+    else window = {std::max(window.least, input.least), std::min(window.most, input.most)};
   };
-  const auto windowOf = [&](std::uint32_t leaf) {
-    return Window{tile.objects[leaf].least, closed_[leaves_[leaf]] ? tile.objects[leaf].most : kFar};
-  };
-  for (std::uint32_t leaf = 0; leaf < tile.objects.size(); ++leaf) {
+  for (std::uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
     for (const PrunedForest::Use& use : pruned_.uses(leaf)) {
-      if (!use.negated) feed(use.node, windowOf(leaf));
+      if (!use.negated) feed(use.node, windowOf(leaf, rangeOf(leaf)));
     }
   }
-  for (std::size_t n = nodes.size(); n-- > 0;) {
-    if (nodes[n].parent != kNone && !nodes[n].negated) feed(nodes[n].parent, windows_[n]);
-  }
-
   double farthest = -kFar;
+  for (std::size_t n = nodes.size(); n-- > 0;) {
+    if (windows_[n].empty()) windows_[n] = {};
+    if (nodes[n].parent == kNone) farthest = std::max(farthest, windows_[n].most);
+    else if (!nodes[n].negated) feed(nodes[n].parent, windows_[n]);
+  }
+  return farthest;
+}
+
+bool CsgFold::mayShow(std::span<const cpu::DepthRange> ranges) {
+  if (eye_.any) return true;   // some leaf is inside from the start
+  return findWindows([&](std::uint32_t leaf) { return ranges[leaf]; }) > -kFar;
+}
+
+// Top down, where the windows of the gates matter. A leaf that can only be inside elsewhere is dropped: it is outside wherever anyone looks.
+double CsgFold::narrowTile(cpu::Tile& tile) {
+  if (eye_.any) return kFar;
+  const double farthest = findWindows([&](std::uint32_t leaf) { return tile.objects[leaf].range; });
+  const auto nodes = pruned_.nodes();
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    Window& window = windows_[n];
-    if (nodes[n].parent == kNone) farthest = std::max(farthest, window.empty() ? -kFar : window.most);
-    else window = {std::max(window.least, windows_[nodes[n].parent].least), std::min(window.most, windows_[nodes[n].parent].most)};
+    if (nodes[n].parent == kNone) continue;
+    const cpu::DepthRange& above = windows_[nodes[n].parent];
+    windows_[n] = {std::max(windows_[n].least, above.least), std::min(windows_[n].most, above.most)};
   }
   for (std::uint32_t leaf = 0; leaf < tile.objects.size(); ++leaf) {
     if (!tile.objects[leaf].keep) continue;
-    const Window own = windowOf(leaf);
+    const cpu::DepthRange own = windowOf(leaf, tile.objects[leaf].range);
     bool matters = false;
     for (const PrunedForest::Use& use : pruned_.uses(leaf)) {
-      const Window& window = windows_[use.node];
+      const cpu::DepthRange& window = windows_[use.node];
       matters |= !window.empty() && own.least <= window.most && window.least <= own.most;
     }
     tile.objects[leaf].keep = matters;

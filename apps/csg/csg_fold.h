@@ -44,6 +44,7 @@ class CsgFold {
 
   bool beginTile(cpu::Tile& tile);
   double narrowTile(cpu::Tile& tile);
+  bool mayShow(std::span<const cpu::DepthRange> ranges);
   bool needsWholeStack() const { return tileNeedsStack_; }
   double leastFragments() const { return pruned_.leastEntries(); }
   void beginPixel(const PixelStack& stack);
@@ -75,6 +76,9 @@ class CsgFold {
     return rule_ == InsideRule::NonZero ? winding != 0 : rule_ == InsideRule::Positive ? winding > 0 : (winding & 1) != 0;
   }
   void listLeaves(const cpu::Tile& tile);
+  cpu::DepthRange windowOf(std::uint32_t leaf, const cpu::DepthRange& range) const;
+  template <class RangeOf>
+  double findWindows(RangeOf rangeOf);
   void setInitialState();
   void startInsideStack(const PixelStack& stack);
   void addWinding(std::uint32_t leaf, std::int32_t change);
@@ -98,11 +102,7 @@ class CsgFold {
   const cpu::TileSlot* slots_ = nullptr;
   std::vector<std::uint32_t> leaves_;
   std::vector<std::uint32_t> topOfOutput_;     // gate, or kNone
-  struct Window {
-    double least, most;                        // order values
-    bool empty() const { return least > most; }
-  };
-  std::vector<Window> windows_;                // per gate: where it can be true, then where that matters
+  std::vector<cpu::DepthRange> windows_;       // per gate: where it can be true, then where that matters
   std::vector<Gate> initialGates_;
   std::vector<LeafState> initialStates_;
   bool tileNeedsStack_ = false;

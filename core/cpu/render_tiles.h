@@ -46,9 +46,10 @@ class TileRenderer {
     tile_.setUp(frame_);
     const double farthest = fold_.narrowTile(tile_);
     if (farthest == -std::numeric_limits<double>::infinity()) return;
+    finished_ = emptyBlocks();
+    if (finished_ == kAllBlocks) return;
     tile_.finish(frame_, farthest, options_.decideAllExactly);
     std::fill(std::begin(done_), std::end(done_), 0);
-    finished_ = 0;
     drawRect(BlockRect{0, 0, (tile_.width + kBlockSize - 1) / kBlockSize, (tile_.height + kBlockSize - 1) / kBlockSize});
   }
   TileCounts counts() const {
@@ -58,6 +59,18 @@ class TileRenderer {
   }
 
  private:
+  static constexpr std::uint32_t kAllBlocks = (1u << kBlocksPerTile) - 1;
+
+  // The blocks in which the fold sees that nothing shows. Where a single fragment may be enough, the look is not worth its time.
+  std::uint32_t emptyBlocks() {
+    if (fold_.leastFragments() < 2) return 0;
+    tile_.rangesOfBlocks(frame_, ranges_);
+    const std::size_t count = tile_.objects.size();
+    std::uint32_t empty = 0;
+    for (int b = 0; b < kBlocksPerTile; ++b) empty |= std::uint32_t{!fold_.mayShow({ranges_.data() + b * count, count})} << b;
+    return empty;
+  }
+
   void drawRect(const BlockRect& rect) {
     grid_.clear();
     grid_.setBudget(rect.count() == 1 ? ~std::size_t{0} : options_.gridBudgetBytes);
@@ -144,6 +157,7 @@ class TileRenderer {
   Walker<F> walker_;
   std::uint64_t done_[kBlocksPerTile] = {};   // pixels, by block
   std::uint32_t finished_ = 0;                // blocks
+  std::vector<DepthRange> ranges_;            // [block][object]
   TileCounts counts_;
 };
 

@@ -72,14 +72,40 @@ void Tile::setUp(const Frame& frame) {
   ranges_.clear();
   for (std::uint32_t i = 0; i < objects.size(); ++i) {
     if (!objects[i].keep) continue;
-    objects[i].least = std::numeric_limits<double>::infinity();
-    objects[i].most = -objects[i].least;
+    objects[i].range = {};
     const std::size_t first = slots.size();
     for (std::uint32_t k = objects[i].firstReference; k < objects[i].lastReference; ++k) {
       addTriangle(frame, objects[i], i, references_[k]);
     }
     if (slots.size() > first && mirrors(frame.scene.objects()[objects[i].object].worldFromObject)) {
       for (std::size_t s = first; s < slots.size(); ++s) slots[s].side = -slots[s].side;
+    }
+  }
+}
+
+void Tile::rangesOfBlocks(const Frame& frame, std::vector<DepthRange>& ranges) const {
+  ranges.assign(kBlocksPerTile * objects.size(), {});
+  constexpr int kLast = kBlockSize - 1;
+  for (const TriangleSetup& t : setups) {
+    const TileSlot& slot = slots[t.slot];
+    if (!objects[slot.object].keep) continue;
+    const double error = frame.depths[slot.planeClass].error;
+    for (int by = t.y0 / kBlockSize; by <= t.y1 / kBlockSize; ++by) {
+      for (int bx = t.x0 / kBlockSize; bx <= t.x1 / kBlockSize; ++bx) {
+        const int x = bx * kBlockSize, y = by * kBlockSize;
+        // An edge with the whole block on its outer side keeps the triangle out.
+        bool outside = false;
+        for (int i = 0; i < 3; ++i) {
+          outside |= t.a[i] * (t.a[i] > 0 ? x + kLast : x) + t.b[i] * (t.b[i] > 0 ? y + kLast : y) + t.c[i] < 0;
+        }
+        if (outside) continue;
+        const int left = std::max<int>(t.x0, x), right = std::min<int>(t.x1, x + kLast);
+        const int top = std::max<int>(t.y0, y), bottom = std::min<int>(t.y1, y + kLast);
+        const double small = t.dc + t.da * (t.da < 0 ? right : left) + t.db * (t.db < 0 ? bottom : top);
+        const double large = t.dc + t.da * (t.da < 0 ? left : right) + t.db * (t.db < 0 ? top : bottom);
+        ranges[(by * kBlocksPerSide + bx) * objects.size() + slot.object].add(std::clamp(small, t.lo, t.hi) - error,
+                                                                             std::clamp(large, t.lo, t.hi) + error);
+      }
     }
   }
 }
@@ -147,8 +173,7 @@ void Tile::addTriangle(const Frame& frame, TileObject& object, std::uint32_t obj
   const double small = t.dc + std::min(t.da * left, t.da * right) + std::min(t.db * top, t.db * bottom);
   const double large = t.dc + std::max(t.da * left, t.da * right) + std::max(t.db * top, t.db * bottom);
   ranges_.push_back({std::clamp(small, t.lo, t.hi), std::clamp(large, t.lo, t.hi)});
-  object.least = std::min(object.least, ranges_.back().least - plane.error);
-  object.most = std::max(object.most, ranges_.back().most + plane.error);
+  object.range.add(ranges_.back().least - plane.error, ranges_.back().most + plane.error);
   setups.push_back(t);
   slots.push_back({primitive, planeClass, objectIndex, area < 0 ? 1 : -1, 0});
 }
@@ -159,7 +184,7 @@ void Tile::scaleDepths(const Frame& frame, bool decideAllExactly) {
   // A margin of 2^-8 of the range at both ends takes the rounding.
   const double units = std::ldexp(1.0, format.depthBits), margin = units / 256;
   double least = std::numeric_limits<double>::infinity(), most = -least;
-  for (const Range& range : ranges_) least = std::min(least, range.least), most = std::max(most, range.most);
+  for (const DepthRange& range : ranges_) least = std::min(least, range.least), most = std::max(most, range.most);
   const double range = most - least;
   // A range so small that rounding would fill thousands of key units gains nothing from a larger scale.
   double leastError = std::numeric_limits<double>::infinity();

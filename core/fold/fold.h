@@ -5,6 +5,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <span>
 
 #include "core/cpu/tile.h"
 
@@ -23,12 +24,15 @@ struct PixelStack {
 };
 
 template <class F>
-concept Fold = requires(F fold, cpu::Tile& tile, const PixelStack& stack, std::uint32_t slot, int x, int y) {
+concept Fold = requires(F fold, cpu::Tile& tile, std::span<const cpu::DepthRange> ranges, const PixelStack& stack, std::uint32_t slot, int x,
+                        int y) {
   // Looks at the tile's objects, may drop some; false: no pixel of the tile shows anything.
   { fold.beginTile(tile) } -> std::same_as<bool>;
   // Looks at the depths of the kept objects, may drop more; returns the order value (depth_planes.h) beyond which nothing matters,
   // -inf when no pixel of the tile shows anything.
   { fold.narrowTile(tile) } -> std::convertible_to<double>;
+  // False: no pixel shows anything where the tile's objects lie in these ranges, as in a part of the tile.
+  { fold.mayShow(ranges) } -> std::same_as<bool>;
   // True when the tile's pixels need their whole stack before they start.
   { fold.needsWholeStack() } -> std::same_as<bool>;
   // No pixel of the tile has enough with fewer fragments.
