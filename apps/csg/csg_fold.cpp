@@ -22,6 +22,7 @@ bool CsgFold::beginTile(cpu::Tile& tile) {
     tileNeedsStack_ |= eye_.any && tile.objects[i].keep && eye_.fromStack[leaves_[i]];
   }
   setInitialState();
+  listInputs();
   return true;
 }
 
@@ -30,42 +31,70 @@ cpu::DepthRange CsgFold::windowOf(std::uint32_t leaf, const cpu::DepthRange& ran
   return {range.least, closed_[leaves_[leaf]] || range.empty() ? range.most : kFar};
 }
 
-// Bottom up, where in depth a gate can be true at all: a union where any input can, an intersection where all can. Returns beyond which
-// depth no result can be true.
-template <class RangeOf>
-double CsgFold::findWindows(RangeOf rangeOf) {
-  const auto nodes = pruned_.nodes();
-  const auto anyInput = [&](std::uint32_t n) { return nodes[n].threshold - nodes[n].initial == 1; };
-  windows_.clear();
-  for (std::uint32_t n = 0; n < nodes.size(); ++n) windows_.push_back(anyInput(n) ? cpu::DepthRange{} : cpu::DepthRange{-kFar, kFar});
-  const auto feed = [&](std::uint32_t n, const cpu::DepthRange& input) {
-    cpu::DepthRange& window = windows_[n];
-    if (anyInput(n)) window.add(input.least, input.most);
-    else window = {std::max(window.least, input.least), std::min(window.most, input.most)};
-  };
+// The gates' windows before they know of their inputs, and the leaves that bear on them.
+void CsgFold::listInputs() {
+  initialWindows_.clear();
+  for (const PrunedForest::Node& node : pruned_.nodes()) {
+    initialWindows_.push_back(node.needsAll() ? cpu::DepthRange{-kFar, kFar} : cpu::DepthRange{});
+  }
+  inputs_.clear();
   for (std::uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
     for (const PrunedForest::Use& use : pruned_.uses(leaf)) {
-      if (!use.negated) feed(use.node, windowOf(leaf, rangeOf(leaf)));
+      if (!use.negated) inputs_.push_back({leaf, use.node});
     }
   }
-  double farthest = -kFar;
+}
+
+// Bottom up, where in depth a gate can be true at all: a union where any input can, an intersection where all can. Returns where any
+// result can be true.
+template <class WindowOf>
+cpu::DepthRange CsgFold::findWindows(WindowOf windowOf) {
+  const auto nodes = pruned_.nodes();
+  windows_ = initialWindows_;
+  const auto feed = [&](std::uint32_t n, const cpu::DepthRange& input) {
+    cpu::DepthRange& window = windows_[n];
+    if (nodes[n].needsAll()) window = {std::max(window.least, input.least), std::min(window.most, input.most)};
+    else window.add(input.least, input.most);
+  };
+  for (const Input& input : inputs_) feed(input.gate, windowOf(input.leaf));
+  cpu::DepthRange any;
   for (std::size_t n = nodes.size(); n-- > 0;) {
     if (windows_[n].empty()) windows_[n] = {};
-    if (nodes[n].parent == kNone) farthest = std::max(farthest, windows_[n].most);
+    if (nodes[n].parent == kNone) any.add(windows_[n].least, windows_[n].most);
     else if (!nodes[n].negated) feed(nodes[n].parent, windows_[n]);
   }
-  return farthest;
+  return any;
 }
 
 bool CsgFold::mayShow(std::span<const cpu::DepthRange> ranges) {
   if (eye_.any) return true;   // some leaf is inside from the start
-  return findWindows([&](std::uint32_t leaf) { return ranges[leaf]; }) > -kFar;
+  return !findWindows([&](std::uint32_t leaf) { return windowOf(leaf, ranges[leaf]); }).empty();
+}
+
+// A leaf whose crossings sum to zero is left for good behind the last; those that lie too deep to be here do not matter.
+cpu::DepthRange CsgFold::window(const PixelStack& stack, double limit) {
+  if (eye_.any) return {-kFar, kFar};
+  faces_.assign(leaves_.size(), {});
+  for (std::uint32_t i = 0; i < stack.count; ++i) {
+    const cpu::TileSlot& slot = stack.slots[stack.slot(i)];
+    const cpu::DepthRange depth = stack.depth(i);
+    LeafFaces& faces = faces_[slot.object];
+    faces.range.add(depth.least, depth.most);
+    faces.winding += slot.side;
+  }
+  if (limit < kFar) return findWindows([&](std::uint32_t leaf) {
+    return cpu::DepthRange{std::min(faces_[leaf].range.least, limit), kFar};
+  });
+  return findWindows([&](std::uint32_t leaf) {
+    const LeafFaces& faces = faces_[leaf];
+    return cpu::DepthRange{faces.range.least, faces.winding == 0 ? faces.range.most : kFar};
+  });
 }
 
 // Top down, where the windows of the gates matter. A leaf that can only be inside elsewhere is dropped: it is outside wherever anyone looks.
 double CsgFold::narrowTile(cpu::Tile& tile) {
   if (eye_.any) return kFar;
-  const double farthest = findWindows([&](std::uint32_t leaf) { return tile.objects[leaf].range; });
+  const double farthest = findWindows([&](std::uint32_t leaf) { return windowOf(leaf, tile.objects[leaf].range); }).most;
   const auto nodes = pruned_.nodes();
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     if (nodes[n].parent == kNone) continue;
@@ -133,6 +162,7 @@ void CsgFold::beginPixel(const PixelStack& stack) {
   surfaces_.clear();
   enough_ = false;
   if (tileNeedsStack_) startInsideStack(stack);
+  for (std::uint32_t slot : stack.before) addWinding(slots_[slot].object, slots_[slot].side);   // no result turns in front of the window
 }
 
 // A closed leaf around the start of the ray: its crossings sum to minus the winding number there.

@@ -9,6 +9,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include "core/cpu/block_window.h"
 #include "core/cpu/walk.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -30,6 +31,9 @@ struct TileOptions {
 // A tile is met in batches when it has several times the layers that a fold needs at least. Each batch repeats the fold of the
 // pixels that the one before left open, so batches grow fast.
 inline constexpr double kBatchGrowth = 4;
+
+// Layers of a block from which on ordering them all costs more than finding out which need it.
+inline constexpr std::uint32_t kDeepStack = 8;
 
 // Draws tiles with one fold. Owned by one thread.
 template <Fold F>
@@ -63,7 +67,8 @@ class TileRenderer {
 
   // The blocks in which the fold sees that nothing shows. Where a single fragment may be enough, the look is not worth its time.
   std::uint32_t emptyBlocks() {
-    if (fold_.leastFragments() < 2) return 0;
+    narrows_ = fold_.leastFragments() >= 2;
+    if (!narrows_) return 0;
     tile_.rangesOfBlocks(frame_, ranges_);
     const std::size_t count = tile_.objects.size();
     std::uint32_t empty = 0;
@@ -126,7 +131,9 @@ class TileRenderer {
   }
 
   bool foldBlock(int b, int x, int y, std::uint64_t limit) {
-    FragmentGrid::Block& block = grid_.block(b);
+    const bool narrow = narrows_ && grid_.block(b).used >= kDeepStack;
+    if (narrow) window_.take(fold_, tile_, grid_.block(b), done_[b], limit);
+    FragmentGrid::Block& block = narrow ? window_.block() : grid_.block(b);
     sortBlock(block);
     walker_.begin(tile_, limit);
     const int columns = std::min(kBlockSize, tile_.width - x), rows = std::min(kBlockSize, tile_.height - y);
@@ -135,7 +142,8 @@ class TileRenderer {
       for (int column = 0; column < columns; ++column) {
         const int p = row * kBlockSize + column;
         if (done_[b] >> p & 1) continue;
-        const PixelStack stack{block.keys.get() + p, block.counts[p], kBlockPixels, tile_.format, tile_.slots.data()};
+        const PixelStack stack{block.keys.get() + p, block.counts[p], kBlockPixels, tile_.format, tile_.slots.data(),
+                               narrow ? window_.before(p) : std::span<const std::uint32_t>{}};
         const int px = tile_.x0 + x + column, py = tile_.y0 + y + row;
         if (walker_.walk(stack, px, py) == Walk::Finished) {
           fold_.endPixel(px, py);
@@ -158,6 +166,8 @@ class TileRenderer {
   std::uint64_t done_[kBlocksPerTile] = {};   // pixels, by block
   std::uint32_t finished_ = 0;                // blocks
   std::vector<DepthRange> ranges_;            // [block][object]
+  BlockWindow window_;
+  bool narrows_ = false;
   TileCounts counts_;
 };
 
