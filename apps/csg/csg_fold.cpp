@@ -22,91 +22,97 @@ bool CsgFold::beginTile(cpu::Tile& tile) {
     tileNeedsStack_ |= eye_.any && tile.objects[i].keep && eye_.fromStack[leaves_[i]];
   }
   setInitialState();
-  listInputs();
+  setInitialWindows();
   return true;
 }
 
 // Where in depth a leaf can be inside, given where it has faces: one that is not closed may be left open for good.
 cpu::DepthRange CsgFold::windowOf(std::uint32_t leaf, const cpu::DepthRange& range) const {
-  return {range.least, closed_[leaves_[leaf]] || range.empty() ? range.most : kFar};
+  return {range.least, closed_[leaves_[leaf]] ? range.most : kFar};
 }
 
-// The gates' windows before they know of their inputs, and the leaves that bear on them.
-void CsgFold::listInputs() {
+void CsgFold::setInitialWindows() {
   initialWindows_.clear();
   for (const PrunedForest::Node& node : pruned_.nodes()) {
-    initialWindows_.push_back(node.needsAll() ? cpu::DepthRange{-kFar, kFar} : cpu::DepthRange{});
-  }
-  inputs_.clear();
-  for (std::uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
-    for (const PrunedForest::Use& use : pruned_.uses(leaf)) {
-      if (!use.negated) inputs_.push_back({leaf, use.node});
-    }
+    const std::int32_t lacking = node.threshold - node.initial;
+    initialWindows_.push_back({lacking == 1 ? cpu::DepthRange{} : cpu::DepthRange{-kFar, kFar}, lacking, lacking != 1});
   }
 }
 
-// Bottom up, where in depth a gate can be true at all: a union where any input can, an intersection where all can. Returns where any
-// result can be true.
-template <class WindowOf>
-cpu::DepthRange CsgFold::findWindows(WindowOf windowOf) {
+// Where in depth a gate can be true at all: a union where any input can, an intersection where all can.
+inline void CsgFold::feed(std::uint32_t gate, const cpu::DepthRange& input) {
+  GateWindow& window = windows_[gate];
+  --window.lacking;
+  if (window.all) window.range = {std::max(window.range.least, input.least), std::min(window.range.most, input.most)};
+  else window.range.add(input.least, input.most);
+}
+
+inline void CsgFold::feedUses(std::uint32_t leaf, const cpu::DepthRange& window) {
+  for (const PrunedForest::Use& use : pruned_.uses(leaf)) {
+    if (!use.negated) feed(use.node, window);
+  }
+}
+
+// Bottom up, after the leaves have been fed. Returns where any result can be true.
+cpu::DepthRange CsgFold::findWindows() {
   const auto nodes = pruned_.nodes();
-  windows_ = initialWindows_;
-  const auto feed = [&](std::uint32_t n, const cpu::DepthRange& input) {
-    cpu::DepthRange& window = windows_[n];
-    if (nodes[n].needsAll()) window = {std::max(window.least, input.least), std::min(window.most, input.most)};
-    else window.add(input.least, input.most);
-  };
-  for (const Input& input : inputs_) feed(input.gate, windowOf(input.leaf));
   cpu::DepthRange any;
   for (std::size_t n = nodes.size(); n-- > 0;) {
-    if (windows_[n].empty()) windows_[n] = {};
-    if (nodes[n].parent == kNone) any.add(windows_[n].least, windows_[n].most);
-    else if (!nodes[n].negated) feed(nodes[n].parent, windows_[n]);
+    GateWindow& window = windows_[n];
+    if (window.lacking > 0 || window.range.empty()) window.range = {};
+    else if (nodes[n].parent == kNone) any.add(window.range.least, window.range.most);
+    else if (!nodes[n].negated) feed(nodes[n].parent, window.range);
   }
   return any;
 }
 
 bool CsgFold::mayShow(std::span<const cpu::DepthRange> ranges) {
   if (eye_.any) return true;   // some leaf is inside from the start
-  return !findWindows([&](std::uint32_t leaf) { return windowOf(leaf, ranges[leaf]); }).empty();
+  windows_ = initialWindows_;
+  for (std::uint32_t leaf = 0; leaf < ranges.size(); ++leaf) {
+    if (!ranges[leaf].empty()) feedUses(leaf, windowOf(leaf, ranges[leaf]));
+  }
+  return !findWindows().empty();
 }
 
 // A leaf whose crossings sum to zero is left for good behind the last; those that lie too deep to be here do not matter.
-cpu::DepthRange CsgFold::window(const PixelStack& stack, double limit) {
+cpu::DepthRange CsgFold::window(const PixelStack& stack) {
   if (eye_.any) return {-kFar, kFar};
-  faces_.assign(leaves_.size(), {});
-  for (std::uint32_t i = 0; i < stack.count; ++i) {
-    const cpu::TileSlot& slot = stack.slots[stack.slot(i)];
-    const cpu::DepthRange depth = stack.depth(i);
-    LeafFaces& faces = faces_[slot.object];
-    faces.range.add(depth.least, depth.most);
-    faces.winding += slot.side;
+  windows_ = initialWindows_;
+  for (std::uint32_t i = 0; i < stack.count;) {
+    const std::uint32_t leaf = stack.slots[stack.slot(i)].object;
+    cpu::DepthRange range;
+    std::int32_t winding = 0;
+    for (; i < stack.count && stack.slots[stack.slot(i)].object == leaf; ++i) {
+      const cpu::DepthRange depth = stack.depth(i);
+      range.add(depth.least, depth.most);
+      winding += stack.slots[stack.slot(i)].side;
+    }
+    feedUses(leaf, {range.least, winding == 0 ? range.most : kFar});
   }
-  if (limit < kFar) return findWindows([&](std::uint32_t leaf) {
-    return cpu::DepthRange{std::min(faces_[leaf].range.least, limit), kFar};
-  });
-  return findWindows([&](std::uint32_t leaf) {
-    const LeafFaces& faces = faces_[leaf];
-    return cpu::DepthRange{faces.range.least, faces.winding == 0 ? faces.range.most : kFar};
-  });
+  return findWindows();
 }
 
 // Top down, where the windows of the gates matter. A leaf that can only be inside elsewhere is dropped: it is outside wherever anyone looks.
 double CsgFold::narrowTile(cpu::Tile& tile) {
   if (eye_.any) return kFar;
-  const double farthest = findWindows([&](std::uint32_t leaf) { return windowOf(leaf, tile.objects[leaf].range); }).most;
+  windows_ = initialWindows_;
+  for (std::uint32_t leaf = 0; leaf < tile.objects.size(); ++leaf) {
+    if (!tile.objects[leaf].range.empty()) feedUses(leaf, windowOf(leaf, tile.objects[leaf].range));
+  }
+  const double farthest = findWindows().most;
   const auto nodes = pruned_.nodes();
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     if (nodes[n].parent == kNone) continue;
-    const cpu::DepthRange& above = windows_[nodes[n].parent];
-    windows_[n] = {std::max(windows_[n].least, above.least), std::min(windows_[n].most, above.most)};
+    const cpu::DepthRange &own = windows_[n].range, &above = windows_[nodes[n].parent].range;
+    windows_[n].range = {std::max(own.least, above.least), std::min(own.most, above.most)};
   }
   for (std::uint32_t leaf = 0; leaf < tile.objects.size(); ++leaf) {
     if (!tile.objects[leaf].keep) continue;
     const cpu::DepthRange own = windowOf(leaf, tile.objects[leaf].range);
     bool matters = false;
     for (const PrunedForest::Use& use : pruned_.uses(leaf)) {
-      const cpu::DepthRange& window = windows_[use.node];
+      const cpu::DepthRange& window = windows_[use.node].range;
       matters |= !window.empty() && own.least <= window.most && window.least <= own.most;
     }
     tile.objects[leaf].keep = matters;

@@ -45,7 +45,7 @@ class CsgFold {
   bool beginTile(cpu::Tile& tile);
   double narrowTile(cpu::Tile& tile);
   bool mayShow(std::span<const cpu::DepthRange> ranges);
-  cpu::DepthRange window(const PixelStack& stack, double limit);
+  cpu::DepthRange window(const PixelStack& stack);
   bool needsWholeStack() const { return tileNeedsStack_; }
   double leastFragments() const { return pruned_.leastEntries(); }
   void beginPixel(const PixelStack& stack);
@@ -77,10 +77,11 @@ class CsgFold {
     return rule_ == InsideRule::NonZero ? winding != 0 : rule_ == InsideRule::Positive ? winding > 0 : (winding & 1) != 0;
   }
   void listLeaves(const cpu::Tile& tile);
-  void listInputs();
+  void setInitialWindows();
   cpu::DepthRange windowOf(std::uint32_t leaf, const cpu::DepthRange& range) const;
-  template <class WindowOf>
-  cpu::DepthRange findWindows(WindowOf windowOf);
+  void feed(std::uint32_t gate, const cpu::DepthRange& input);
+  void feedUses(std::uint32_t leaf, const cpu::DepthRange& window);
+  cpu::DepthRange findWindows();
   void setInitialState();
   void startInsideStack(const PixelStack& stack);
   void addWinding(std::uint32_t leaf, std::int32_t change);
@@ -104,25 +105,17 @@ class CsgFold {
   const cpu::TileSlot* slots_ = nullptr;
   std::vector<std::uint32_t> leaves_;
   std::vector<std::uint32_t> topOfOutput_;     // gate, or kNone
-  // A leaf that helps a gate to become true.
-  struct Input {
-    std::uint32_t leaf, gate;
+  struct GateWindow {
+    cpu::DepthRange range;                     // where it can be true, then where that matters
+    std::int32_t lacking;                      // positive inputs that have not been met
+    bool all;                                  // needs all of them, not any
   };
-  std::vector<Input> inputs_;
-  std::vector<cpu::DepthRange> initialWindows_;
-  std::vector<cpu::DepthRange> windows_;       // per gate: where it can be true, then where that matters
+  std::vector<GateWindow> initialWindows_, windows_;   // per gate
   std::vector<Gate> initialGates_;
   std::vector<LeafState> initialStates_;
   bool tileNeedsStack_ = false;
 
-  // A leaf's fragments in a pixel.
-  struct LeafFaces {
-    cpu::DepthRange range;
-    std::int32_t winding = 0;                  // behind them all
-  };
-
   // Of the pixel.
-  std::vector<LeafFaces> faces_;               // per leaf
   bool dirty_ = true;                          // the state differs from the initial one
   std::vector<LeafState> states_;              // per leaf
   std::vector<Gate> gates_;

@@ -56,7 +56,6 @@ class PrunedForest {
     std::int32_t initial;        // inputs true while all leaves are outside
     std::uint32_t output;        // or kNone
     bool negated;                // seen by the parent
-    bool needsAll() const { return threshold - initial != 1; }   // of its positive inputs
   };
   struct Use {
     std::uint32_t node;

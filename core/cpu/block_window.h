@@ -12,17 +12,17 @@ namespace copeel::cpu {
 
 class BlockWindow {
  public:
-  // Takes the pixels of `all` without a bit in `done`. `limit`: fragments at or beyond this depth may be missing yet.
+  // `all`: in the order of slots.
   template <Fold F>
-  void take(F& fold, const Tile& tile, const FragmentGrid::Block& all, std::uint64_t done, std::uint64_t limit) {
+  void take(F& fold, const Tile& tile, const FragmentGrid::Block& all) {
     makeRoom(all);
     before_.clear();
     for (int p = 0; p < kBlockPixels; ++p) {
       firstBefore_[p] = static_cast<std::uint32_t>(before_.size());
       block_.counts[p] = 0;
-      if (all.counts[p] == 0 || done >> p & 1) continue;
+      if (all.counts[p] == 0) continue;
       const PixelStack stack{all.keys.get() + p, all.counts[p], kBlockPixels, tile.format, tile.slots.data()};
-      const DepthRange window = fold.window(stack, limit == kNoLimit ? kFar : static_cast<double>(limit));
+      const DepthRange window = fold.window(stack);
       if (!window.empty()) takePixel(stack, p, window);
     }
     firstBefore_[kBlockPixels] = static_cast<std::uint32_t>(before_.size());
@@ -34,8 +34,6 @@ class BlockWindow {
   }
 
  private:
-  static constexpr double kFar = std::numeric_limits<double>::infinity();
-
   void makeRoom(const FragmentGrid::Block& all) {
     if (block_.capacity >= all.used) return;
     block_.capacity = all.capacity;

@@ -67,8 +67,7 @@ class TileRenderer {
 
   // The blocks in which the fold sees that nothing shows. Where a single fragment may be enough, the look is not worth its time.
   std::uint32_t emptyBlocks() {
-    narrows_ = fold_.leastFragments() >= 2;
-    if (!narrows_) return 0;
+    if (fold_.leastFragments() < 2) return 0;
     tile_.rangesOfBlocks(frame_, ranges_);
     const std::size_t count = tile_.objects.size();
     std::uint32_t empty = 0;
@@ -80,8 +79,9 @@ class TileRenderer {
     grid_.clear();
     grid_.setBudget(rect.count() == 1 ? ~std::size_t{0} : options_.gridBudgetBytes);
     double layers = fold_.needsWholeStack() ? 0 : 2 + 2 * fold_.leastFragments();
-    const bool batches = layers > 0 && tile_.layers() > kBatchGrowth / 2 * layers;
+    const bool batches = layers > 0 && tile_.layers() > (getenv("BG")?atof(getenv("BG")):2) * layers;
     if (batches && tile_.nearest.empty()) tile_.orderByDepth();
+    narrows_ = tile_.nearest.empty() && fold_.leastFragments() >= 2;
     const std::span<const TriangleSetup> all = tile_.setups;
     for (std::size_t begin = 0;; layers *= kBatchGrowth) {
       const std::size_t end = batches ? std::max(tile_.setupsOfLayers(layers), begin) : all.size();
@@ -130,9 +130,13 @@ class TileRenderer {
     return all;
   }
 
+  static bool isDeep(const FragmentGrid::Block& block) {
+    return block.used >= kDeepStack && *std::max_element(std::begin(block.counts), std::end(block.counts)) >= kDeepStack;
+  }
+
   bool foldBlock(int b, int x, int y, std::uint64_t limit) {
-    const bool narrow = narrows_ && grid_.block(b).used >= kDeepStack;
-    if (narrow) window_.take(fold_, tile_, grid_.block(b), done_[b], limit);
+    const bool narrow = narrows_ && isDeep(grid_.block(b));
+    if (narrow) window_.take(fold_, tile_, grid_.block(b));
     FragmentGrid::Block& block = narrow ? window_.block() : grid_.block(b);
     sortBlock(block);
     walker_.begin(tile_, limit);

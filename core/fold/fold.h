@@ -33,7 +33,7 @@ struct PixelStack {
 
 template <class F>
 concept Fold = requires(F fold, cpu::Tile& tile, std::span<const cpu::DepthRange> ranges, const PixelStack& stack, std::uint32_t slot,
-                        double limit, int x, int y) {
+                        int x, int y) {
   // Looks at the tile's objects, may drop some; false: no pixel of the tile shows anything.
   { fold.beginTile(tile) } -> std::same_as<bool>;
   // Looks at the depths of the kept objects, may drop more; returns the order value (depth_planes.h) beyond which nothing matters,
@@ -45,9 +45,9 @@ concept Fold = requires(F fold, cpu::Tile& tile, std::span<const cpu::DepthRange
   { fold.needsWholeStack() } -> std::same_as<bool>;
   // No pixel of the tile has enough with fewer fragments.
   { fold.leastFragments() } -> std::convertible_to<double>;
-  // For a pixel of which `stack` holds all fragments nearer than `limit`, in no order yet: bounds of the depths in which results can be true, in key units.
+  // For a pixel with its fragments in the order of their slots: bounds of the depths in which results can be true, in key units.
   // Fragments certainly in front of it need no order, those behind it are not needed.
-  { fold.window(stack, limit) } -> std::same_as<cpu::DepthRange>;
+  { fold.window(stack) } -> std::same_as<cpu::DepthRange>;
   // The ordered fragments of a pixel; those of `before` count as met.
   fold.beginPixel(stack);
   fold.fragment(slot);
