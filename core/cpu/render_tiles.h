@@ -28,12 +28,12 @@ struct TileOptions {
   bool decideAllExactly = false;
 };
 
-// A tile is met in batches when it has several times the layers that a fold needs at least. Each batch repeats the fold of the
+// A tile is met in batches when it has many times the layers that a fold needs at least. Each batch repeats the fold of the
 // pixels that the one before left open, so batches grow fast.
-inline constexpr double kBatchGrowth = 4;
+inline constexpr double kBatchesFrom = 8, kBatchGrowth = 4;
 
-// Layers of a block from which on ordering them all costs more than finding out which need it.
-inline constexpr std::uint32_t kDeepStack = 8;
+// Layers of a tile from which on ordering them all costs more than finding out which need it.
+inline constexpr double kNarrowFrom = 8;
 
 // Draws tiles with one fold. Owned by one thread.
 template <Fold F>
@@ -50,7 +50,9 @@ class TileRenderer {
     tile_.setUp(frame_);
     const double farthest = fold_.narrowTile(tile_);
     if (farthest == -std::numeric_limits<double>::infinity()) return;
-    finished_ = emptyBlocks();
+    // Where a single fragment may be enough, or few lie upon each other, narrowing is not worth its time.
+    narrows_ = fold_.leastFragments() >= 2 && tile_.layers() >= kNarrowFrom;
+    finished_ = narrows_ ? emptyBlocks() : 0;
     if (finished_ == kAllBlocks) return;
     tile_.finish(frame_, farthest, options_.decideAllExactly);
     std::fill(std::begin(done_), std::end(done_), 0);
@@ -65,9 +67,8 @@ class TileRenderer {
  private:
   static constexpr std::uint32_t kAllBlocks = (1u << kBlocksPerTile) - 1;
 
-  // The blocks in which the fold sees that nothing shows. Where a single fragment may be enough, the look is not worth its time.
+  // The blocks in which the fold sees that nothing shows.
   std::uint32_t emptyBlocks() {
-    if (fold_.leastFragments() < 2) return 0;
     tile_.rangesOfBlocks(frame_, ranges_);
     const std::size_t count = tile_.objects.size();
     std::uint32_t empty = 0;
@@ -79,9 +80,9 @@ class TileRenderer {
     grid_.clear();
     grid_.setBudget(rect.count() == 1 ? ~std::size_t{0} : options_.gridBudgetBytes);
     double layers = fold_.needsWholeStack() ? 0 : 2 + 2 * fold_.leastFragments();
-    const bool batches = layers > 0 && tile_.layers() > (getenv("BG")?atof(getenv("BG")):2) * layers;
+    const bool batches = layers > 0 && tile_.layers() > kBatchesFrom * layers;
     if (batches && tile_.nearest.empty()) tile_.orderByDepth();
-    narrows_ = tile_.nearest.empty() && fold_.leastFragments() >= 2;
+    narrows_ &= tile_.nearest.empty();   // windows want the order of slots
     const std::span<const TriangleSetup> all = tile_.setups;
     for (std::size_t begin = 0;; layers *= kBatchGrowth) {
       const std::size_t end = batches ? std::max(tile_.setupsOfLayers(layers), begin) : all.size();
@@ -130,14 +131,9 @@ class TileRenderer {
     return all;
   }
 
-  static bool isDeep(const FragmentGrid::Block& block) {
-    return block.used >= kDeepStack && *std::max_element(std::begin(block.counts), std::end(block.counts)) >= kDeepStack;
-  }
-
   bool foldBlock(int b, int x, int y, std::uint64_t limit) {
-    const bool narrow = narrows_ && isDeep(grid_.block(b));
-    if (narrow) window_.take(fold_, tile_, grid_.block(b));
-    FragmentGrid::Block& block = narrow ? window_.block() : grid_.block(b);
+    if (narrows_) window_.take(fold_, tile_, grid_.block(b));
+    FragmentGrid::Block& block = narrows_ ? window_.block() : grid_.block(b);
     sortBlock(block);
     walker_.begin(tile_, limit);
     const int columns = std::min(kBlockSize, tile_.width - x), rows = std::min(kBlockSize, tile_.height - y);
@@ -147,7 +143,7 @@ class TileRenderer {
         const int p = row * kBlockSize + column;
         if (done_[b] >> p & 1) continue;
         const PixelStack stack{block.keys.get() + p, block.counts[p], kBlockPixels, tile_.format, tile_.slots.data(),
-                               narrow ? window_.before(p) : std::span<const std::uint32_t>{}};
+                               narrows_ ? window_.before(p) : std::span<const std::uint32_t>{}};
         const int px = tile_.x0 + x + column, py = tile_.y0 + y + row;
         if (walker_.walk(stack, px, py) == Walk::Finished) {
           fold_.endPixel(px, py);
