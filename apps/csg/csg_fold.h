@@ -44,6 +44,8 @@ class CsgFold {
 
   bool beginTile(cpu::Tile& tile);
   double narrowTile(cpu::Tile& tile);
+  bool mayShow(std::span<const cpu::DepthRange> ranges);
+  cpu::DepthRange window(const PixelStack& stack);
   bool needsWholeStack() const { return tileNeedsStack_; }
   double leastFragments() const { return pruned_.leastEntries(); }
   void beginPixel(const PixelStack& stack);
@@ -75,6 +77,11 @@ class CsgFold {
     return rule_ == InsideRule::NonZero ? winding != 0 : rule_ == InsideRule::Positive ? winding > 0 : (winding & 1) != 0;
   }
   void listLeaves(const cpu::Tile& tile);
+  void setInitialWindows();
+  cpu::DepthRange windowOf(std::uint32_t leaf, const cpu::DepthRange& range) const;
+  void feed(std::uint32_t gate, const cpu::DepthRange& input);
+  void feedUses(std::uint32_t leaf, const cpu::DepthRange& window);
+  cpu::DepthRange findWindows();
   void setInitialState();
   void startInsideStack(const PixelStack& stack);
   void addWinding(std::uint32_t leaf, std::int32_t change);
@@ -98,11 +105,12 @@ class CsgFold {
   const cpu::TileSlot* slots_ = nullptr;
   std::vector<std::uint32_t> leaves_;
   std::vector<std::uint32_t> topOfOutput_;     // gate, or kNone
-  struct Window {
-    double least, most;                        // order values
-    bool empty() const { return least > most; }
+  struct GateWindow {
+    cpu::DepthRange range;                     // where it can be true, then where that matters
+    std::int32_t lacking;                      // positive inputs that have not been met
+    bool all;                                  // needs all of them, not any
   };
-  std::vector<Window> windows_;                // per gate: where it can be true, then where that matters
+  std::vector<GateWindow> initialWindows_, windows_;   // per gate
   std::vector<Gate> initialGates_;
   std::vector<LeafState> initialStates_;
   bool tileNeedsStack_ = false;
