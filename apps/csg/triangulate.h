@@ -16,16 +16,7 @@
 
 namespace copeel::csg {
 
-// Positive where a, b, c turn left. The sign is exact.
-double orientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c);
-
-// Positive where d lies within the circle through a, b, c (a left turn), 0 where that is within rounding.
-double inCircle(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& d);
-
 // Loop i ends at loopEnds[i]. Triangles are indices of points, counter-clockwise. None where loops cross.
 std::optional<std::vector<glm::uvec3>> triangulate(std::span<const glm::dvec2> points, std::span<const std::uint32_t> loopEnds);
-
-// One loop, each corner a left turn, once around.
-bool isConvexLoop(std::span<const glm::dvec2> points);
 
 }  // namespace copeel::csg

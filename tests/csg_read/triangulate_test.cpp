@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/csg/orientation.h"
 #include "apps/csg/triangulate.h"
 
 namespace copeel::csg {
