@@ -2,10 +2,16 @@
 #include "apps/csg/delaunay.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
 namespace copeel::csg {
+namespace {
+
+constexpr double kLeastExtent = 0x1p-50;   // of the frame, relative to the coordinates: 8 ulp
+
+}  // namespace
 
 Delaunay::Delaunay(std::vector<glm::dvec2> points) : points_(std::move(points)), count_(static_cast<Index>(points_.size())) {
   addFrame();
@@ -32,7 +38,9 @@ void Delaunay::addFrame() {
     high = glm::dvec2(std::max(high.x, p.x), std::max(high.y, p.y));
   }
   const glm::dvec2 center = (low + high) * 0.5;
-  const double size = std::max({high.x - low.x, high.y - low.y, 1e-300}) * 16;
+  // Points on a line parallel to an axis may have no extent that the frame's corners could show beside the coordinates.
+  const double largest = std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y), 1e-300});
+  const double size = std::max({high.x - low.x, high.y - low.y, largest * kLeastExtent}) * 16;
   points_.emplace_back(center.x - 2 * size, center.y - size);
   points_.emplace_back(center.x + 2 * size, center.y - size);
   points_.emplace_back(center.x, center.y + 2 * size);

@@ -22,13 +22,15 @@ class Delaunay {
   static constexpr std::array<int, 3> kNext{1, 2, 0};
   static constexpr std::array<int, 3> kPrevious{2, 0, 1};
 
+  static constexpr double kLargest = 0x1p1000;   // a frame around it still fits a double
+
   struct Triangle {
     std::array<Index, 3> v;
     std::array<Index, 3> n;
     std::array<Index, 3> cut;
   };
 
-  // Distinct points; the corners of a frame around them come after them.
+  // Distinct points, none beyond kLargest; the corners of a frame around them come after them.
   explicit Delaunay(std::vector<glm::dvec2> points);
 
   const std::vector<Triangle>& triangles() const { return triangles_; }

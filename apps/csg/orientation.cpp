@@ -1,18 +1,37 @@
+// Filtered predicates. Based on: Shewchuk. Adaptive precision floating-point arithmetic and fast robust geometric predicates. Discrete &
+// Computational Geometry 18, 1997.
 #include "apps/csg/orientation.h"
+
+#include <gmpxx.h>
 
 #include <cmath>
 
 namespace copeel::csg {
 namespace {
 
-// (3 + 16 ε) ε: the bound of Shewchuk's first filter for a 2 × 2 determinant of differences.
+// (3 + 16 ε) ε: the bound of the first filter for a 2 × 2 determinant of differences.
 constexpr double kOrientationBound = 3.3306690738754716e-16;
 
-double orientationExact(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
-  using Wide = __float128;
-  const Wide determinant = (Wide(a.x) - c.x) * (Wide(b.y) - c.y) - (Wide(a.y) - c.y) * (Wide(b.x) - c.x);
-  return determinant > 0 ? 1.0 : determinant < 0 ? -1.0 : 0.0;
+// The rounding error of a − b is a double again (Knuth); infinite or NaN where the difference overflows.
+double roundingOfDifference(double a, double b) {
+  const double difference = a - b, partOfB = a - difference, partOfA = difference + partOfB;
+  return (a - partOfA) + (partOfB - b);
 }
+
+// Where the differences are doubles, as on any grid, their products fit 113 bits; rationals otherwise.
+double orientationExact(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+  const bool areDoubles = roundingOfDifference(a.x, c.x) == 0 && roundingOfDifference(b.y, c.y) == 0 &&
+                          roundingOfDifference(a.y, c.y) == 0 && roundingOfDifference(b.x, c.x) == 0;
+  if (areDoubles) {
+    using Wide = __float128;
+    const Wide left = Wide(a.x - c.x) * (b.y - c.y), right = Wide(a.y - c.y) * (b.x - c.x);
+    return left > right ? 1.0 : left < right ? -1.0 : 0.0;
+  }
+  const mpq_class cx(c.x), cy(c.y);
+  const mpq_class left = (a.x - cx) * (b.y - cy), right = (a.y - cy) * (b.x - cx);
+  return cmp(left, right);
+}
+
 }  // namespace
 
 double orientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {

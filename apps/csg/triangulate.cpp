@@ -2,6 +2,7 @@
 #include "apps/csg/triangulate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -189,10 +190,12 @@ std::vector<Index> firstAtPosition(std::span<const glm::dvec2> points) {
   return result;
 }
 
+bool exceedsFrame(const glm::dvec2& p) { return !(std::abs(p.x) <= Delaunay::kLargest && std::abs(p.y) <= Delaunay::kLargest); }
+
 }  // namespace
 
 std::optional<std::vector<glm::uvec3>> triangulate(std::span<const glm::dvec2> points, std::span<const std::uint32_t> loopEnds) {
-  if (points.size() < 3) return std::vector<glm::uvec3>{};
+  if (std::any_of(points.begin(), points.end(), exceedsFrame)) return std::nullopt;
   const std::vector<Index> first = firstAtPosition(points);
   std::vector<Index> compact(points.size(), kNone), original;
   std::vector<glm::dvec2> distinct;
@@ -202,6 +205,7 @@ std::optional<std::vector<glm::uvec3>> triangulate(std::span<const glm::dvec2> p
     distinct.push_back(points[i]);
     original.push_back(i);
   }
+  if (distinct.size() < 3) return std::vector<glm::uvec3>{};
   Delaunay mesh(std::move(distinct));
   Constraints constraints(mesh);
   std::size_t begin = 0;
