@@ -199,7 +199,8 @@ class Parser {
   void readRange() {
     Value& vector = tree_.tape[vectors_.back()];
     const std::size_t begin = in_.at();
-    if (vector.itemCount != 1 || tree_.tape.back().kind != ValueKind::Number) tree_.fail(in_.at(), "unexpected :");
+    const bool hasBegin = tree_.tape.size() == vectors_.back() + 2u && tree_.tape.back().kind == ValueKind::Number;
+    if (!hasBegin) tree_.fail(in_.at(), "unexpected :");
     const double first = tree_.tape.back().number;
     tree_.tape.pop_back();
     vector.itemCount = 0;

@@ -71,8 +71,15 @@ std::string_view SyntaxTree::nameOf(const SyntaxNode& node) const {
   return text.substr(node.textBegin, end - node.textBegin);
 }
 
+// There may be a warning on each line: counting anew for every one would take the square of the file's size.
 std::size_t SyntaxTree::lineAt(std::size_t offset) const {
-  return 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(offset, text.size())), '\n'));
+  if (lineEnds_.empty()) {
+    for (std::size_t at = text.find('\n'); at != std::string_view::npos; at = text.find('\n', at + 1)) {
+      lineEnds_.push_back(static_cast<std::uint32_t>(at));
+    }
+    lineEnds_.push_back(~std::uint32_t{0});
+  }
+  return 1 + static_cast<std::size_t>(std::lower_bound(lineEnds_.begin(), lineEnds_.end(), offset) - lineEnds_.begin());
 }
 
 void SyntaxTree::fail(std::size_t offset, const std::string& cause) const { failInput("{}:{}: {}", name, lineAt(offset), cause); }
