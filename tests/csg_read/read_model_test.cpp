@@ -77,6 +77,15 @@ TEST(Polyhedron, facesOfNoExtentOrOfTooMuch) {
   EXPECT_EQ(huge.leaves.at(0).mesh->triangles.size(), 3u);
 }
 
+TEST(Semantics, anOuterColourThatIsNotWholeGivesWay) {
+  const Model model = parse("color([-1,-1,-1,0.5]) { color([1,0,0,1]) cube(1); cube(1); } color([1,0,0,1]) color([-1,-1,-1,0.5]) cube(1); "
+                            "color([-1,1,0.5,-1]) cube(1);");
+  EXPECT_EQ(*model.leaves[0].color, glm::dvec4(1, 0, 0, 1));
+  EXPECT_EQ(*model.leaves[1].color, glm::dvec4(-1, -1, -1, 0.5));
+  EXPECT_EQ(*model.leaves[2].color, glm::dvec4(1, 0, 0, 1));
+  EXPECT_EQ(*model.leaves[3].color, glm::dvec4(-1, 1, 0.5, 1));
+}
+
 TEST(Semantics, theOuterColourShows) {
   const Model model = parse("color([1,0,0,1]) { color([0,0,1,0.5]) cube(1); sphere(1); } cube(1); color(\"#8000\") cube(1); color(\"Tomato\",0.25) cube(1);");
   EXPECT_EQ(*model.leaves[0].color, glm::dvec4(1, 0, 0, 1));

@@ -74,6 +74,18 @@ TEST(Blend, aSubtractedSolidOwnsTheFacesItLeaves) {
   expectColor(middle(subtract({body, cube(1, with(kGreen, 0), {0, 0, 1.5})})), 0, 0, 0);
 }
 
+// As openscad does: color([-1, 1, -1, 0.5]) is what color(alpha = 0.5) and the like become in a .csg.
+TEST(Blend, whatAColourLeavesOpenTheSchemeDecides) {
+  const glm::dvec4 halfOfNothing(-1, -1, -1, 0.5), green(-1, 1, -1, 1);
+  const csg::ColorScheme scheme;
+  const auto& front = scheme.front;
+  const auto& cutout = scheme.cutout;
+  expectColor(middle(cube(1, halfOfNothing)), front[0] / 2, front[1] / 2, front[2] / 2);
+  expectColor(middle(cube(1, green)), front[0], 255, front[2]);
+  const Tree body = cube(2, kRed);
+  expectColor(middle(subtract({body, cube(1, halfOfNothing, {0, 0, 1.5})})), cutout[0] / 2, cutout[1] / 2, cutout[2] / 2);
+}
+
 TEST(Blend, theLaterOperandWinsASharedFace) {
   expectColor(middle(unite({cube(1, kRed), cube(1, kGreen)})), 0, 255, 0);
   expectColor(middle(unite({cube(1, kGreen), cube(1, kRed)})), 255, 0, 0);
@@ -83,10 +95,13 @@ TEST(Blend, theLaterOperandWinsASharedFace) {
 
 TEST(Blend, partsWithModifiersLieOverTheSolid) {
   csg::Model model;
-  const std::uint32_t solid = addTree(model, cube(1, kBlue)), marked = addTree(model, cube(1, kBlue, {0, 0, 3}));
+  const std::uint32_t solid = addTree(model, cube(1, kBlue)), marked = addTree(model, leaf(box({-1, -1, 2}, {1, 1, 4})));
   model.root = solid;
   model.background = {marked};
   expectColor(middle(model), 90, 90, 90 + 127);
+  // A colour of its own goes before the grey.
+  model.leaves[1].color = with(kRed, 0.25);
+  expectColor(middle(model), 64, 0, 191);
   EXPECT_EQ(drawn(model).ids.at(10, 10), 1);
   model.background = {};
   model.highlight = {solid};
