@@ -127,9 +127,9 @@ void run(CommandOptions options) {
 
   auto progress = std::make_unique<Progress>(!common.quiet);
   progress->phase("reading " + inputs[0]);
+  limitMemory(common.memoryBytes);
   const Model model = readModel(options, kind, files);
   const double loadMs = millisecondsSince(start);
-  limitMemory(common.memoryBytes);
   progress->phase("drawing " + inputs[0]);
   drawing = draw(model, options);
   progress.reset();

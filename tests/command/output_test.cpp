@@ -1,5 +1,6 @@
 // Where results go, what is in them, and that a failure leaves nothing behind. Hard case 14, from outside.
 #include <cmath>
+#include <cstring>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -29,6 +30,24 @@ TEST_F(Output, NamesWithBlanksUtf8QuotesAndDashes) {
     EXPECT_EQ(run({"csg", "--imgsize", "16,16", "--", name + ".csg"}).exitCode, 0);
     EXPECT_TRUE(std::filesystem::exists(folder_ / (name + ".png")));
   }
+}
+
+// Reading, too: a text of 4 MB becomes a tape of some 14 MB, and each binary STL of 10^5 triangles a mesh of 8 MB.
+TEST_F(Output, MemoryBeyondTheLimitIsTheMachinesLimit) {
+  std::string text = "group() {\n";
+  for (int i = 0; i < 50000; ++i) text += "multmatrix([[1,0,0," + std::to_string(2 * i) + "],[0,1,0,1],[0,0,1,1],[0,0,0,1]]) { cube(1); }\n";
+  write("long.csg", text + "}\n");
+  const std::uint32_t count = 100000;
+  std::string mesh(84 + std::size_t{50} * count, '\0');
+  std::memcpy(mesh.data() + 80, &count, 4);
+  write("large.stl", mesh);
+  for (const std::string input : {"long.csg", "large.stl"}) {
+    const Outcome outcome = run({"csg", input, "--memory", "4M", "--threads", "1", "-o", "a.png", "--stats", "a.json"});
+    expectFailure(outcome, 3);
+    EXPECT_NE(outcome.standardError.find("not enough memory"), std::string::npos) << outcome.standardError;
+  }
+  EXPECT_EQ(run({"csg", "long.csg", "--memory", "2G", "--imgsize", "16,16"}).exitCode, 0);
+  EXPECT_EQ(files(), (Words{"large.stl", "long.csg", "long.png", "part.csg"}));
 }
 
 TEST_F(Output, StatsHoldTheContract) {
