@@ -86,6 +86,33 @@ TEST(Blend, whatAColourLeavesOpenTheSchemeDecides) {
   expectColor(middle(subtract({body, cube(1, halfOfNothing, {0, 0, 1.5})})), cutout[0] / 2, cutout[1] / 2, cutout[2] / 2);
 }
 
+// Each part is cut open in its own colour, whatever cut it before; the later one where two overlap.
+TEST(Blend, theCapOfASectionBelongsToThePartThatItCuts) {
+  const auto cutOpen = [](const Tree& tree, double at) {
+    csg::RenderOptions options;
+    options.lit = false;
+    options.scheme.background = {0, 0, 0};
+    options.sections = {{2, at}};
+    return draw(modelOf(tree), kAbove, options).frame;
+  };
+  const Tree red = cube(1, kRed), green = cube(1, kGreen, {0, 0, -1.5}), away = cube(1, kBlue, {0, 0, 40});
+  expectColor(cutOpen(unite({red, green, away}), 0.5).color.at(10, 10), 255, 0, 0);
+  expectColor(cutOpen(unite({red, green, away}), -2).color.at(10, 10), 0, 255, 0);
+  expectColor(cutOpen(unite({red, green}), -0.75).color.at(10, 10), 0, 255, 0);
+  expectColor(cutOpen(unite({green, red}), -0.75).color.at(10, 10), 255, 0, 0);
+  EXPECT_EQ(cutOpen(unite({red, green, away}), -2).ids.at(10, 10), 2);
+  // Below the bottom of a pocket, and what a part cut from a cutter leaves.
+  expectColor(cutOpen(subtract({red, cube(1, kGreen, {0, 0, 1.5})}), 0.25).color.at(10, 10), 255, 0, 0);
+  expectColor(cutOpen(subtract({red, subtract({cube(2, kGreen), cube(0.5, kBlue)})}), 0.25).color.at(10, 10), 255, 0, 0);
+  expectColor(cutOpen(intersect({cube(1, kRed), cube(2, kGreen)}), 0.25).color.at(10, 10), 0, 255, 0);
+  // Glass is cut open to glass, and shows the opaque part that it holds.
+  expectColor(cutOpen(cube(1, with(kRed, 0.5)), 0.25).color.at(10, 10), 128, 0, 0);
+  expectColor(cutOpen(unite({cube(0.5, kBlue), cube(1, with(kRed, 0.5))}), 0.25).color.at(10, 10), 128, 0, 128);
+  // A part without a colour has the scheme's front, not that of what is cut out.
+  const auto& front = csg::ColorScheme{}.front;
+  expectColor(cutOpen(leaf(box(glm::dvec3(-1), glm::dvec3(1))), 0.25).color.at(10, 10), front[0], front[1], front[2]);
+}
+
 TEST(Blend, theLaterOperandWinsASharedFace) {
   expectColor(middle(unite({cube(1, kRed), cube(1, kGreen)})), 0, 255, 0);
   expectColor(middle(unite({cube(1, kGreen), cube(1, kRed)})), 255, 0, 0);
