@@ -2,6 +2,7 @@
 #include "apps/csg/command.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -42,6 +43,8 @@ std::vector<MeshArgument> filesOf(const CommandOptions& options, InputKind kind)
 void checkReadable(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) failInput("{}: is a directory", path);
+  // A pipe can be opened once only: whoever writes it would see its reader go.
+  if (std::filesystem::is_fifo(path, error)) return;
   if (std::FILE* file = std::fopen(path.c_str(), "rbe")) {
     std::fclose(file);
     return;

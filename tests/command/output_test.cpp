@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/image/write_image.h"
@@ -14,6 +15,12 @@ namespace copeel {
 namespace {
 
 using Output = ProgramTest;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kHasSanitizer = true;
+#else
+constexpr bool kHasSanitizer = false;
+#endif
 using Words = std::vector<std::string>;
 
 TEST_F(Output, IsNamedAfterTheInputInTheCurrentFolder) {
@@ -34,6 +41,7 @@ TEST_F(Output, NamesWithBlanksUtf8QuotesAndDashes) {
 
 // Reading, too: a text of 4 MB becomes a tape of some 14 MB, and each binary STL of 10^5 triangles a mesh of 8 MB.
 TEST_F(Output, MemoryBeyondTheLimitIsTheMachinesLimit) {
+  if (kHasSanitizer) GTEST_SKIP() << "the sanitizer's own memory is past any limit";
   std::string text = "group() {\n";
   for (int i = 0; i < 50000; ++i) text += "multmatrix([[1,0,0," + std::to_string(2 * i) + "],[0,1,0,1],[0,0,1,1],[0,0,0,1]]) { cube(1); }\n";
   write("long.csg", text + "}\n");
@@ -204,10 +212,16 @@ TEST_F(Output, LinksAreFollowed) {
   EXPECT_EQ(contentOf(folder_ / "sub/real.png").substr(1, 3), "PNG");
 }
 
+TEST_F(Output, AnInputMayBeAPipe) {
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  const std::string command = "cd '" + folder_.string() + "' && (printf 'v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3\\n' > pipe; echo $? > wrote) & cd '" +
+                              folder_.string() + "' && timeout 20 '" + COPEEL_PROGRAM + "' csg pipe -q -o a.png; code=$?; wait; exit $code";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(contentOf(folder_ / "wrote"), "0\n");
+}
+
 TEST_F(Output, TooLittleMemoryIsExitThree) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the sanitizer's own memory is past any limit";
-#endif
+  if (kHasSanitizer) GTEST_SKIP() << "the sanitizer's own memory is past any limit";
   expectFailure(run({"csg", "part.csg", "--imgsize", "16384,16384", "--memory", "64M"}), 3);
   EXPECT_EQ(files(), Words{"part.csg"});
 }
