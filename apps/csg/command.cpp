@@ -134,7 +134,13 @@ void run(CommandOptions options) {
   const Model model = readModel(options, kind, files);
   const double loadMs = millisecondsSince(start);
   progress->phase("drawing " + inputs[0]);
-  drawing = draw(model, options);
+  try {
+    drawing = draw(model, options);
+  } catch (const Error& error) {
+    // What core finds at fault in a scene it cannot name by its file.
+    if (error.code() != ExitCode::Input) throw;
+    failInput("{}: {}", inputs[0], error.what());
+  }
   progress.reset();
   if (!common.quiet) {
     for (const std::string& warning : model.warnings) fmt::print(stderr, "copeel: warning: {}\n", warning);

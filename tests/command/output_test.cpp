@@ -212,6 +212,13 @@ TEST_F(Output, LinksAreFollowed) {
   EXPECT_EQ(contentOf(folder_ / "sub/real.png").substr(1, 3), "PNG");
 }
 
+TEST_F(Output, AFaultOfTheSceneNamesTheFile) {
+  write("far.csg", "multmatrix([[1e300,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) cube(1);");
+  const Outcome outcome = run({"csg", "far.csg"});
+  expectFailure(outcome, 1);
+  EXPECT_EQ(outcome.standardError.substr(0, 25), "copeel: far.csg: object 1");
+}
+
 TEST_F(Output, AnInputMayBeAPipe) {
   ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   const std::string command = "cd '" + folder_.string() + "' && (printf 'v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3\\n' > pipe; echo $? > wrote) & cd '" +
