@@ -39,7 +39,8 @@ std::string pictureFile(const CommonOptions& options, const std::string& input);
 // Throws Error{Machine} for the back end that this version does not have.
 void checkBackend(const CommonOptions& options);
 
-// Holds the data memory of the process to the limit from now on: past it, allocations fail and the program ends with exit code 3.
+// Holds the data memory of the process, and that of each program it runs, to the limit from now on: past it, allocations fail and the
+// program ends with exit code 3. Called before anything is read.
 void limitMemory(std::uint64_t bytes);
 
 }  // namespace copeel

@@ -2,6 +2,7 @@
 #include "apps/csg/command.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -46,6 +47,8 @@ std::vector<MeshArgument> filesOf(const CommandOptions& options, InputKind kind)
 void checkReadable(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) failInput("{}: is a directory", path);
+  // A pipe can be opened once only: whoever writes it would see its reader go.
+  if (std::filesystem::is_fifo(path, error)) return;
   if (std::FILE* file = std::fopen(path.c_str(), "rbe")) {
     std::fclose(file);
     return;
@@ -149,12 +152,18 @@ void run(CommandOptions options) {
 
   auto progress = std::make_unique<Progress>(!common.quiet);
   progress->phase("reading " + inputs[0]);
+  limitMemory(common.memoryBytes);
   std::optional<ScadExport> scad;
   Model model = readModel(options, kind, files, scad);
   const double loadMs = millisecondsSince(start);
-  limitMemory(common.memoryBytes);
   progress->phase("drawing " + inputs[0]);
-  drawing = draw(model, options);
+  try {
+    drawing = draw(model, options);
+  } catch (const Error& error) {
+    // What core finds at fault in a scene it cannot name by its file.
+    if (error.code() != ExitCode::Input) throw;
+    failInput("{}: {}", inputs[0], error.what());
+  }
   if (scad) {
     const std::vector<std::string> more = scad->finish();
     model.warnings.insert(model.warnings.end(), more.begin(), more.end());

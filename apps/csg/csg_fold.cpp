@@ -235,13 +235,36 @@ void CsgFold::showRisen() {
 
 void CsgFold::showSurface(std::uint32_t output, std::uint32_t slot) {
   const cpu::TileSlot& face = slots_[slot];
-  const std::uint32_t leaf = leaves_[face.object];
+  std::uint32_t leaf = leaves_[face.object];
+  if (leaf >= forest_.firstSection) leaf = partBehindCap(output, leaf);
   const Output& result = forest_.outputs[output];
   const double alpha = alpha_(context_, leaf, result.part);
   // A translucent face of the opaque share has been blended as a face of the whole.
   if (alpha <= 0 || (alpha < 1 && result.opaqueShare)) return;
   surfaces_.push_back({face.primitive, face.planeClass, leaf, result.part});
   enough_ = alpha >= 1;
+}
+
+std::uint32_t CsgFold::partBehindCap(std::uint32_t output, std::uint32_t section) const {
+  std::uint32_t part = section;
+  for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
+    const bool later = leaves_[i] < forest_.firstSection && (part == section || leaves_[i] > part);
+    if (later && fills(i, output)) part = leaves_[i];
+  }
+  return part;
+}
+
+// True when the inside of the leaf is here inside the output, and all on the way between them.
+bool CsgFold::fills(std::uint32_t leaf, std::uint32_t output) const {
+  if (!inside(states_[leaf].winding)) return false;
+  for (const PrunedForest::Use& use : pruned_.uses(leaf)) {
+    bool value = !use.negated;
+    for (std::uint32_t g = use.node; g != kNone && value && gates_[g].isTrue(); g = gates_[g].parent) {
+      if (gates_[g].output == output) return true;
+      value = !gates_[g].negated;
+    }
+  }
+  return false;
 }
 
 // The slot of the group whose face shows for a result that the group made true.

@@ -2,6 +2,7 @@
 //
 // All fragments of a coplanar group are applied before the results are asked, so coincident faces behave as regularised Booleans do. Among
 // the faces of a group that bring the change about, the one of the later leaf shows, and within a leaf the later triangle (DESIGN.md, CSG).
+// The cap of a section belongs to the part that it cuts: the later one where parts overlap.
 //
 // Translucency. Each entry into a solid blends once, with the alpha of the face that shows; leaving it does not. The surface is that of the
 // CSG result: walls between two solids of one union do not show. The opaque share of the solid (its tree with the translucent leaves
@@ -91,6 +92,8 @@ class CsgFold {
   void showSurface(std::uint32_t output, std::uint32_t slot);
   std::uint32_t showingFace(std::uint32_t output);
   bool bringsChange(std::uint32_t leaf, std::uint32_t output) const;
+  std::uint32_t partBehindCap(std::uint32_t output, std::uint32_t section) const;
+  bool fills(std::uint32_t leaf, std::uint32_t output) const;
 
   const GateForest& forest_;
   const EyeWinding& eye_;
