@@ -22,8 +22,12 @@ std::vector<glm::dvec4> colorsOf(const csg::Model& model, const csg::ColorScheme
   std::vector<glm::dvec4> colors;
   for (std::size_t i = 0; i < model.leaves.size(); ++i) {
     const auto& plain = subtracted[i] ? scheme.cutout : scheme.front;
-    const auto& own = model.leaves[i].color;
-    colors.push_back(own ? glm::dvec4(glm::dvec3(*own) * 255.0, own->a) : glm::dvec4(plain[0], plain[1], plain[2], 1));
+    glm::dvec4 color(plain[0], plain[1], plain[2], 1);
+    if (const auto& own = model.leaves[i].color) {
+      for (int k = 0; k < 3; ++k) color[k] = (*own)[k] < 0 ? color[k] : (*own)[k] * 255;
+      color.a = own->a;
+    }
+    colors.push_back(color);
   }
   return colors;
 }

@@ -90,7 +90,7 @@ void addCommonOptions(CLI::App& command, CommonOptions& options) {
               options.methodOptions.hardwareDepth = text == "hardware";
             });
   addWhole(command, "--threads", options.threads, 1, kMaxThreads, "how many threads (all cores)");
-  addParsed(command, "--memory", "BYTES", "the most data memory while drawing, such as 512M or 2G",
+  addParsed(command, "--memory", "BYTES", "the most data memory, such as 512M or 2G; where it is not enough, exit code 3",
             [&options](const std::string& text) { options.memoryBytes = options.methodOptions.memoryBytes = parseBytes(text, "--memory"); });
   addWhole(command, "--samples", options.samples, 1, kMaxSamples, "samples a pixel, for smooth edges (1)");
   addParsed(command, "--coplanar-tolerance", "LENGTH", "faces closer than this are one face, in model units (by the input's precision)",
@@ -120,9 +120,9 @@ std::string pictureFile(const CommonOptions& options, const std::string& input) 
 void limitMemory(std::uint64_t bytes) {
   if (bytes == 0) return;
   struct rlimit limit = {};
-  getrlimit(RLIMIT_DATA, &limit);
+  const bool known = getrlimit(RLIMIT_DATA, &limit) == 0;
   limit.rlim_cur = std::min<rlim_t>(bytes, limit.rlim_max);
-  if (setrlimit(RLIMIT_DATA, &limit) != 0) failMachine("cannot limit the memory to {} bytes", bytes);
+  if (!known || setrlimit(RLIMIT_DATA, &limit) != 0) failMachine("cannot limit the memory to {} bytes", bytes);
 }
 
 }  // namespace copeel

@@ -38,7 +38,8 @@ void addCommonOptions(CLI::App& command, CommonOptions& options);
 // Where the picture goes: -o, or the first input's name in the current folder with .png. Throws Error{Usage} on another ending.
 std::string pictureFile(const CommonOptions& options, const std::string& input);
 
-// Holds the data memory of the process to the limit from now on: past it, allocations fail and the program ends with exit code 3.
+// Holds the data memory of the process, and that of each program it runs, to the limit from now on: past it, allocations fail and the
+// program ends with exit code 3. Called before anything is read.
 void limitMemory(std::uint64_t bytes);
 
 }  // namespace copeel

@@ -23,11 +23,23 @@ double millisecondsSince(Clock::time_point start) { return std::chrono::duration
 void checkReadable(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) failInput("{}: is a directory", path);
+  // A pipe can be opened once only: whoever writes it would see its reader go.
+  if (std::filesystem::is_fifo(path, error)) return;
   if (std::FILE* file = std::fopen(path.c_str(), "rbe")) {
     std::fclose(file);
     return;
   }
   failInput("{}: {}", path, std::generic_category().message(errno));
+}
+
+// What core finds at fault in a scene it cannot name by its file.
+void drawNamed(const PictureSteps& steps, Stats& stats) {
+  try {
+    steps.draw(stats);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::Input) throw;
+    failInput("{}: {}", steps.inputs.front(), error.what());
+  }
 }
 
 }  // namespace
@@ -48,12 +60,15 @@ void makePicture(const CommonOptions& options, const PictureSteps& steps, Output
 
   auto progress = std::make_unique<Progress>(!options.quiet);
   progress->phase("reading " + first);
+  limitMemory(options.memoryBytes);
   std::vector<std::string> warnings = steps.read();
   const double loadMs = millisecondsSince(start);
-  limitMemory(options.memoryBytes);
   progress->phase("drawing " + first);
-  const std::vector<std::string> more = steps.draw(stats);
-  warnings.insert(warnings.end(), more.begin(), more.end());
+  drawNamed(steps, stats);
+  if (steps.finish) {
+    const std::vector<std::string> more = steps.finish();
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  }
   progress.reset();
   if (!options.quiet) {
     for (const std::string& warning : warnings) fmt::print(stderr, "copeel: warning: {}\n", warning);

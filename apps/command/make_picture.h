@@ -18,7 +18,8 @@ namespace copeel {
 struct PictureSteps {
   std::vector<std::string> inputs;                  // paths of what is read
   std::function<std::vector<std::string>()> read;   // returns warnings, one line each
-  std::function<std::vector<std::string>(Stats&)> draw;   // prepares, and draws as drawFrames does; returns more warnings
+  std::function<void(Stats&)> draw;                 // prepares, and draws as drawFrames does
+  std::function<std::vector<std::string>()> finish; // if any: what a reader has to say only now; returns more warnings
 };
 
 // `outputs` holds what the command writes of its own; --stats and the picture come after it, the picture last: once it is there, so is

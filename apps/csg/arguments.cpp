@@ -11,9 +11,6 @@
 namespace copeel::csg {
 namespace {
 
-// openscad's default part colour; stands in where only an alpha was named.
-constexpr glm::dvec4 kCornfield{249.0 / 255, 215.0 / 255, 44.0 / 255, 1};
-
 template <class Point>
 std::vector<Point> pointsOf(const SyntaxTree& tree, const Value& list) {
   if (list.kind != ValueKind::Vector) tree.fail(list.textBegin, "points is no list");
@@ -101,20 +98,19 @@ glm::dmat4 matrixOf(const SyntaxTree& tree, const SyntaxNode& node) {
   return restoreMatrix(matrix, texts);
 }
 
-std::optional<glm::dvec4> colorOf(const SyntaxTree& tree, const SyntaxNode& node) {
+glm::dvec4 colorOf(const SyntaxTree& tree, const SyntaxNode& node) {
   const Value* value = tree.find(node, "c", 0);
   const double alpha = numberOr(tree, node, "alpha", -1, 1);
   if (value && value->kind == ValueKind::String) {
     const std::string name = tree.stringOf(*value);
     std::optional<glm::dvec4> color = namedColor(name);
     if (!color) tree.fail(value->textBegin, fmt::format("unknown colour '{}'", name));
-    if (alpha >= 0) color->w = alpha;
-    return color;
+    if (alpha >= 0) color->w = std::min(alpha, 1.0);
+    return *color;
   }
   std::array<double, 4> rgba{-1, -1, -1, alpha};
   if (value && value->kind == ValueKind::Vector) readNumbers(tree, *value, rgba.data(), 4);
-  if (!(rgba[0] >= 0) && !(rgba[3] >= 0)) return std::nullopt;
-  glm::dvec4 color = kCornfield;
+  glm::dvec4 color(-1, -1, -1, 1);
   for (int i = 0; i < 4; ++i) {
     const double component = rgba[static_cast<std::size_t>(i)];
     if (component >= 0) color[i] = std::min(component, 1.0);

@@ -28,8 +28,8 @@ double radiusOf(const SyntaxTree& tree, const SyntaxNode& node, std::string_view
 // The matrix of a multmatrix, its rotation restored where six digits took it (see restore_matrix.h). Missing rows are the identity's.
 glm::dmat4 matrixOf(const SyntaxTree& tree, const SyntaxNode& node);
 
-// None: the node names no colour.
-std::optional<glm::dvec4> colorOf(const SyntaxTree& tree, const SyntaxNode& node);
+// Red, green and blue are negative where the node leaves them open.
+glm::dvec4 colorOf(const SyntaxTree& tree, const SyntaxNode& node);
 
 // Points in 2 or 3 coordinates; fails with a line on anything else, NaN and infinities.
 std::vector<glm::dvec2> points2Of(const SyntaxTree& tree, const Value& points);

@@ -95,8 +95,8 @@ void run(CommandOptions options) {
   steps.draw = [&](Stats& stats) {
     Renderer renderer(*model, renderOptions(options));
     frame = drawFrames(renderer, common, stats);
-    return scad ? scad->finish() : std::vector<std::string>();
   };
+  steps.finish = [&] { return scad ? scad->finish() : std::vector<std::string>(); };
   makePicture(common, steps, std::move(outputs), frame.color);
 }
 

@@ -5,6 +5,11 @@
 #include <limits>
 
 namespace copeel::csg {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+}  // namespace
 
 bool CsgFold::beginTile(cpu::Tile& tile) {
   listLeaves(tile);
@@ -17,47 +22,97 @@ bool CsgFold::beginTile(cpu::Tile& tile) {
     tileNeedsStack_ |= eye_.any && tile.objects[i].keep && eye_.fromStack[leaves_[i]];
   }
   setInitialState();
+  setInitialWindows();
   return true;
 }
 
-// Bottom up, where in depth a gate can be true at all: a union where any input can, an intersection where all can. Top down, where that
-// matters. A leaf that can only be inside elsewhere is dropped: it is outside wherever anyone looks.
-double CsgFold::narrowTile(cpu::Tile& tile) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  if (eye_.any) return kFar;   // some leaf is inside from the start
-  const auto nodes = pruned_.nodes();
-  const auto anyInput = [&](std::uint32_t n) { return nodes[n].threshold - nodes[n].initial == 1; };
-  windows_.clear();
-  for (std::uint32_t n = 0; n < nodes.size(); ++n) windows_.push_back(anyInput(n) ? Window{kFar, -kFar} : Window{-kFar, kFar});
-  const auto feed = [&](std::uint32_t n, const Window& input) {
-    Window& window = windows_[n];
-    window = anyInput(n) ? Window{std::min(window.least, input.least), std::max(window.most, input.most)}
-                         : Window{std::max(window.least, input.least), std::min(window.most, input.most)};
-  };
-  const auto windowOf = [&](std::uint32_t leaf) {
-    return Window{tile.objects[leaf].least, closed_[leaves_[leaf]] ? tile.objects[leaf].most : kFar};
-  };
-  for (std::uint32_t leaf = 0; leaf < tile.objects.size(); ++leaf) {
-    for (const PrunedForest::Use& use : pruned_.uses(leaf)) {
-      if (!use.negated) feed(use.node, windowOf(leaf));
-    }
-  }
-  for (std::size_t n = nodes.size(); n-- > 0;) {
-    if (nodes[n].parent != kNone && !nodes[n].negated) feed(nodes[n].parent, windows_[n]);
-  }
+// Where in depth a leaf can be inside, given where it has faces: one that is not closed may be left open for good.
+cpu::DepthRange CsgFold::windowOf(std::uint32_t leaf, const cpu::DepthRange& range) const {
+  return {range.least, closed_[leaves_[leaf]] ? range.most : kFar};
+}
 
-  double farthest = -kFar;
+void CsgFold::setInitialWindows() {
+  initialWindows_.clear();
+  for (const PrunedForest::Node& node : pruned_.nodes()) {
+    const std::int32_t lacking = node.threshold - node.initial;
+    initialWindows_.push_back({lacking == 1 ? cpu::DepthRange{} : cpu::DepthRange{-kFar, kFar}, lacking, lacking != 1});
+  }
+}
+
+// Where in depth a gate can be true at all: a union where any input can, an intersection where all can.
+inline void CsgFold::feed(std::uint32_t gate, const cpu::DepthRange& input) {
+  GateWindow& window = windows_[gate];
+  --window.lacking;
+  if (window.all) window.range = {std::max(window.range.least, input.least), std::min(window.range.most, input.most)};
+  else window.range.add(input.least, input.most);
+}
+
+inline void CsgFold::feedUses(std::uint32_t leaf, const cpu::DepthRange& window) {
+  for (const PrunedForest::Use& use : pruned_.uses(leaf)) {
+    if (!use.negated) feed(use.node, window);
+  }
+}
+
+// Bottom up, after the leaves have been fed. Returns where any result can be true.
+cpu::DepthRange CsgFold::findWindows() {
+  const auto nodes = pruned_.nodes();
+  cpu::DepthRange any;
+  for (std::size_t n = nodes.size(); n-- > 0;) {
+    GateWindow& window = windows_[n];
+    if (window.lacking > 0 || window.range.empty()) window.range = {};
+    else if (nodes[n].parent == kNone) any.add(window.range.least, window.range.most);
+    else if (!nodes[n].negated) feed(nodes[n].parent, window.range);
+  }
+  return any;
+}
+
+bool CsgFold::mayShow(std::span<const cpu::DepthRange> ranges) {
+  if (eye_.any) return true;   // some leaf is inside from the start
+  windows_ = initialWindows_;
+  for (std::uint32_t leaf = 0; leaf < ranges.size(); ++leaf) {
+    if (!ranges[leaf].empty()) feedUses(leaf, windowOf(leaf, ranges[leaf]));
+  }
+  return !findWindows().empty();
+}
+
+// A leaf whose crossings sum to zero is left for good behind the last; those that lie too deep to be here do not matter.
+cpu::DepthRange CsgFold::window(const PixelStack& stack) {
+  if (eye_.any) return {-kFar, kFar};
+  windows_ = initialWindows_;
+  for (std::uint32_t i = 0; i < stack.count;) {
+    const std::uint32_t leaf = stack.slots[stack.slot(i)].object;
+    cpu::DepthRange range;
+    std::int32_t winding = 0;
+    for (; i < stack.count && stack.slots[stack.slot(i)].object == leaf; ++i) {
+      const cpu::DepthRange depth = stack.depth(i);
+      range.add(depth.least, depth.most);
+      winding += stack.slots[stack.slot(i)].side;
+    }
+    feedUses(leaf, {range.least, winding == 0 ? range.most : kFar});
+  }
+  return findWindows();
+}
+
+// Top down, where the windows of the gates matter. A leaf that can only be inside elsewhere is dropped: it is outside wherever anyone looks.
+double CsgFold::narrowTile(cpu::Tile& tile) {
+  if (eye_.any) return kFar;
+  windows_ = initialWindows_;
+  for (std::uint32_t leaf = 0; leaf < tile.objects.size(); ++leaf) {
+    if (!tile.objects[leaf].range.empty()) feedUses(leaf, windowOf(leaf, tile.objects[leaf].range));
+  }
+  const double farthest = findWindows().most;
+  const auto nodes = pruned_.nodes();
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    Window& window = windows_[n];
-    if (nodes[n].parent == kNone) farthest = std::max(farthest, window.empty() ? -kFar : window.most);
-    else window = {std::max(window.least, windows_[nodes[n].parent].least), std::min(window.most, windows_[nodes[n].parent].most)};
+    if (nodes[n].parent == kNone) continue;
+    const cpu::DepthRange &own = windows_[n].range, &above = windows_[nodes[n].parent].range;
+    windows_[n].range = {std::max(own.least, above.least), std::min(own.most, above.most)};
   }
   for (std::uint32_t leaf = 0; leaf < tile.objects.size(); ++leaf) {
     if (!tile.objects[leaf].keep) continue;
-    const Window own = windowOf(leaf);
+    const cpu::DepthRange own = windowOf(leaf, tile.objects[leaf].range);
     bool matters = false;
     for (const PrunedForest::Use& use : pruned_.uses(leaf)) {
-      const Window& window = windows_[use.node];
+      const cpu::DepthRange& window = windows_[use.node].range;
       matters |= !window.empty() && own.least <= window.most && window.least <= own.most;
     }
     tile.objects[leaf].keep = matters;
@@ -113,6 +168,7 @@ void CsgFold::beginPixel(const PixelStack& stack) {
   surfaces_.clear();
   enough_ = false;
   if (tileNeedsStack_) startInsideStack(stack);
+  for (std::uint32_t slot : stack.before) addWinding(slots_[slot].object, slots_[slot].side);   // no result turns in front of the window
 }
 
 // A closed leaf around the start of the ray: its crossings sum to minus the winding number there.
@@ -179,13 +235,36 @@ void CsgFold::showRisen() {
 
 void CsgFold::showSurface(std::uint32_t output, std::uint32_t slot) {
   const cpu::TileSlot& face = slots_[slot];
-  const std::uint32_t leaf = leaves_[face.object];
+  std::uint32_t leaf = leaves_[face.object];
+  if (leaf >= forest_.firstSection) leaf = partBehindCap(output, leaf);
   const Output& result = forest_.outputs[output];
   const double alpha = alpha_(context_, leaf, result.part);
   // A translucent face of the opaque share has been blended as a face of the whole.
   if (alpha <= 0 || (alpha < 1 && result.opaqueShare)) return;
   surfaces_.push_back({face.primitive, face.planeClass, leaf, result.part});
   enough_ = alpha >= 1;
+}
+
+std::uint32_t CsgFold::partBehindCap(std::uint32_t output, std::uint32_t section) const {
+  std::uint32_t part = section;
+  for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
+    const bool later = leaves_[i] < forest_.firstSection && (part == section || leaves_[i] > part);
+    if (later && fills(i, output)) part = leaves_[i];
+  }
+  return part;
+}
+
+// True when the inside of the leaf is here inside the output, and all on the way between them.
+bool CsgFold::fills(std::uint32_t leaf, std::uint32_t output) const {
+  if (!inside(states_[leaf].winding)) return false;
+  for (const PrunedForest::Use& use : pruned_.uses(leaf)) {
+    bool value = !use.negated;
+    for (std::uint32_t g = use.node; g != kNone && value && gates_[g].isTrue(); g = gates_[g].parent) {
+      if (gates_[g].output == output) return true;
+      value = !gates_[g].negated;
+    }
+  }
+  return false;
 }
 
 // The slot of the group whose face shows for a result that the group made true.

@@ -2,6 +2,7 @@
 //
 // All fragments of a coplanar group are applied before the results are asked, so coincident faces behave as regularised Booleans do. Among
 // the faces of a group that bring the change about, the one of the later leaf shows, and within a leaf the later triangle (DESIGN.md, CSG).
+// The cap of a section belongs to the part that it cuts: the later one where parts overlap.
 //
 // Translucency. Each entry into a solid blends once, with the alpha of the face that shows; leaving it does not. The surface is that of the
 // CSG result: walls between two solids of one union do not show. The opaque share of the solid (its tree with the translucent leaves
@@ -44,6 +45,8 @@ class CsgFold {
 
   bool beginTile(cpu::Tile& tile);
   double narrowTile(cpu::Tile& tile);
+  bool mayShow(std::span<const cpu::DepthRange> ranges);
+  cpu::DepthRange window(const PixelStack& stack);
   bool needsWholeStack() const { return tileNeedsStack_; }
   double leastFragments() const { return pruned_.leastEntries(); }
   void beginPixel(const PixelStack& stack);
@@ -75,6 +78,11 @@ class CsgFold {
     return rule_ == InsideRule::NonZero ? winding != 0 : rule_ == InsideRule::Positive ? winding > 0 : (winding & 1) != 0;
   }
   void listLeaves(const cpu::Tile& tile);
+  void setInitialWindows();
+  cpu::DepthRange windowOf(std::uint32_t leaf, const cpu::DepthRange& range) const;
+  void feed(std::uint32_t gate, const cpu::DepthRange& input);
+  void feedUses(std::uint32_t leaf, const cpu::DepthRange& window);
+  cpu::DepthRange findWindows();
   void setInitialState();
   void startInsideStack(const PixelStack& stack);
   void addWinding(std::uint32_t leaf, std::int32_t change);
@@ -84,6 +92,8 @@ class CsgFold {
   void showSurface(std::uint32_t output, std::uint32_t slot);
   std::uint32_t showingFace(std::uint32_t output);
   bool bringsChange(std::uint32_t leaf, std::uint32_t output) const;
+  std::uint32_t partBehindCap(std::uint32_t output, std::uint32_t section) const;
+  bool fills(std::uint32_t leaf, std::uint32_t output) const;
 
   const GateForest& forest_;
   const EyeWinding& eye_;
@@ -98,11 +108,12 @@ class CsgFold {
   const cpu::TileSlot* slots_ = nullptr;
   std::vector<std::uint32_t> leaves_;
   std::vector<std::uint32_t> topOfOutput_;     // gate, or kNone
-  struct Window {
-    double least, most;                        // order values
-    bool empty() const { return least > most; }
+  struct GateWindow {
+    cpu::DepthRange range;                     // where it can be true, then where that matters
+    std::int32_t lacking;                      // positive inputs that have not been met
+    bool all;                                  // needs all of them, not any
   };
-  std::vector<Window> windows_;                // per gate: where it can be true, then where that matters
+  std::vector<GateWindow> initialWindows_, windows_;   // per gate
   std::vector<Gate> initialGates_;
   std::vector<LeafState> initialStates_;
   bool tileNeedsStack_ = false;

@@ -19,7 +19,8 @@ enum class Operation : std::uint8_t { Leaf, Union, Intersection, Difference };
 struct Leaf {
   std::shared_ptr<const Mesh> mesh;         // shared by every leaf of the same shape
   glm::dmat4 worldFromObject{1.0};
-  std::optional<glm::dvec4> color;          // sRGB and alpha, 0 … 1; unset: the colour scheme decides
+  // sRGB and alpha, 0 … 1; what is unset, or a negative red, green or blue, the colour scheme decides.
+  std::optional<glm::dvec4> color;
 };
 
 // Children of node n are childIndices[firstChild … firstChild + childCount), each smaller than n. A Union or Intersection of no children

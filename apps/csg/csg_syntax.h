@@ -68,8 +68,11 @@ struct SyntaxTree {
   std::string_view textOf(const Value& value) const { return text.substr(value.textBegin, value.textLength); }
   std::string stringOf(const Value& value) const;       // escapes undone
   std::string_view nameOf(const SyntaxNode& node) const;
-  std::size_t lineAt(std::size_t offset) const;          // counted when a message needs it
+  std::size_t lineAt(std::size_t offset) const;
   [[noreturn]] void fail(std::size_t offset, const std::string& cause) const;
+
+ private:
+  mutable std::vector<std::uint32_t> lineEnds_;          // found when a message first needs a line
 };
 
 // Throws Error{Input} "name:line: cause". `text` must outlive the tree.

@@ -1,6 +1,6 @@
 // The meaning of a tree is that of openscad 2021.01, found by experiment:
 // - a node of no children is the empty set, also as an operand: difference() { group(); cube(); } is nothing;
-// - of nested colours the outer one shows; a % operand is taken out of its operation; a ! anywhere is the whole model, without
+// - of nested colours the outermost one that names red, green and blue shows, or the innermost; a % operand is taken out of its operation; a ! anywhere is the whole model, without
 //   the matrices above it;
 // - in a difference or an intersection the first child with a dimension decides whether 2D or 3D ones count; the others are left out;
 // - a matrix with NaN or infinity, or a singular one, leaves the empty set and a warning.
@@ -25,6 +25,8 @@ bool isFinite(const glm::dmat4& m) {
   }
   return true;
 }
+
+bool isWhole(const std::optional<glm::dvec4>& color) { return color && color->r >= 0 && color->g >= 0 && color->b >= 0; }
 
 class Evaluator {
  public:
@@ -88,7 +90,7 @@ class Evaluator {
     frame.end = node.subtreeEnd;
     frame.dimension = dimensions_[index];
     frame.firstPending = static_cast<std::uint32_t>(pending_.size());
-    if (node.keyword == Keyword::Color && !placement().color) pushPlacement(frame).color = colorOf(tree_, node);
+    if (node.keyword == Keyword::Color && !isWhole(placement().color)) pushPlacement(frame).color = colorOf(tree_, node);
     if (node.keyword == Keyword::Multmatrix && !multiply(pushPlacement(frame), node)) {
       placements_.pop_back();
       addOperand(addNode(Operation::Union, pending_.size()), node.modifiers);

@@ -68,6 +68,7 @@ GateForest buildGates(const Model& model, std::span<const std::uint32_t> section
                       std::uint32_t leafCount) {
   GateForest forest;
   forest.cuts.assign(leafCount, 0);
+  forest.firstSection = static_cast<std::uint32_t>(model.leaves.size());
   std::vector<std::vector<LeafUse>> uses(leafCount);
   TreeCopier copier(model, forest, uses);
   const auto addOutput = [&](std::uint32_t root, std::uint32_t part, bool opaqueShare, bool cutBySections) {

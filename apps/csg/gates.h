@@ -41,6 +41,7 @@ struct GateForest {
   std::vector<std::uint32_t> firstUse;   // per leaf, and the end
   std::vector<LeafUse> uses;
   std::vector<std::uint8_t> cuts;        // per leaf: it is subtracted (an odd number of times) in the solid
+  std::uint32_t firstSection = kNone;    // leaves from here on are sections
 };
 
 // `sections`: leaves (indices after the model's own) subtracted from the solid. `translucent`: per leaf, whether it is seen through.

@@ -12,20 +12,29 @@ namespace {
 const glm::dvec4 kBackgroundPart(180, 180, 180, 128.0 / 255);
 const glm::dvec4 kHighlightPart(255, 81, 81, 128.0 / 255);
 
+// Channel by channel, the leaf's own where it has one.
+glm::dvec4 painted(const Leaf& leaf, glm::dvec4 color) {
+  if (!leaf.color) return color;
+  for (int i = 0; i < 3; ++i) {
+    if ((*leaf.color)[i] >= 0) color[i] = (*leaf.color)[i] * 255;
+  }
+  color.a = leaf.color->a;
+  return color;
+}
+
 glm::dvec3 toVector(const std::array<double, 3>& c) { return {c[0], c[1], c[2]}; }
 
 }  // namespace
 
 Look::Look(const Model& model, const GateForest& forest, const RenderOptions& options) : model_(model), options_(options) {
   for (std::size_t leaf = 0; leaf < forest.cuts.size(); ++leaf) {
-    const bool colored = leaf < model.leaves.size() && model.leaves[leaf].color;
-    const glm::dvec4 own = colored ? *model.leaves[leaf].color * glm::dvec4(255, 255, 255, 1) : glm::dvec4(0);
-    leafColors_.push_back(colored ? own : glm::dvec4(toVector(forest.cuts[leaf] ? options.scheme.cutout : options.scheme.front), 1));
+    const glm::dvec4 plain(toVector(forest.cuts[leaf] ? options.scheme.cutout : options.scheme.front), 1);
+    leafColors_.push_back(leaf < model.leaves.size() ? painted(model.leaves[leaf], plain) : plain);
   }
 }
 
-glm::dvec4 Look::overlayColor(std::uint32_t part) const {
-  return part <= model_.background.size() ? kBackgroundPart : kHighlightPart;
+glm::dvec4 Look::overlayColor(std::uint32_t leaf, std::uint32_t part) const {
+  return part <= model_.background.size() ? painted(model_.leaves[leaf], kBackgroundPart) : kHighlightPart;
 }
 
 glm::dvec3 Look::blend(std::span<const Surface> frontToBack) const {

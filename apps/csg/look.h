@@ -1,4 +1,5 @@
-// How surfaces look: openscad's preview. Colour = base · min(1, 0.2 + |n·l|), l = (-1, 1, 1)/√3 in eye space, blended in float.
+// How surfaces look: openscad's preview. A leaf's own colour goes before the scheme's, and before the grey of %, but not before that of #.
+// Colour = base · min(1, 0.2 + |n·l|), l = (-1, 1, 1)/√3 in eye space, blended in float.
 #pragma once
 
 #include <span>
@@ -20,8 +21,8 @@ class Look {
   glm::dvec3 blend(std::span<const Surface> frontToBack) const;   // 0 … 255, over the background
 
  private:
-  glm::dvec4 colorOf(std::uint32_t leaf, std::uint32_t part) const { return part == 0 ? leafColors_[leaf] : overlayColor(part); }
-  glm::dvec4 overlayColor(std::uint32_t part) const;
+  glm::dvec4 colorOf(std::uint32_t leaf, std::uint32_t part) const { return part == 0 ? leafColors_[leaf] : overlayColor(leaf, part); }
+  glm::dvec4 overlayColor(std::uint32_t leaf, std::uint32_t part) const;
 
   const Model& model_;
   const RenderOptions& options_;

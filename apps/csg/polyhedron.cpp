@@ -5,6 +5,7 @@
 #include <span>
 
 #include "apps/csg/mesh_builder.h"
+#include "apps/csg/orientation.h"
 #include "apps/csg/solids.h"
 #include "apps/csg/triangulate.h"
 

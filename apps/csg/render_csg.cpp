@@ -29,19 +29,20 @@ double nowMs() {
 
 double alphaOfLook(const void* look, std::uint32_t leaf, std::uint32_t part) { return static_cast<const Look*>(look)->alpha(leaf, part); }
 
-// A box that reaches from the section plane well past the model.
+// A box that reaches from the section plane well past the model; without triangles where that is beside all of it.
 std::shared_ptr<const Mesh> sectionMesh(const Section& section, const Box& bounds) {
+  auto mesh = std::make_shared<Mesh>();
+  if (bounds.empty()) return mesh;
   Box box = bounds;
   const glm::dvec3 margin(bounds.diagonal() + 1);
   box.min -= margin;
   box.max += margin;
-  (section.below ? box.max : box.min)[section.axis] = section.at;
-  auto mesh = std::make_shared<Mesh>();
+  const double at = std::clamp(section.at, box.min[section.axis], box.max[section.axis]);
+  if (at == (section.below ? box.min : box.max)[section.axis]) return mesh;
+  (section.below ? box.max : box.min)[section.axis] = at;
   for (int corner = 0; corner < 8; ++corner) {
     mesh->vertices.emplace_back(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z);
   }
-  const bool beyond = box.min[section.axis] >= box.max[section.axis];   // the plane misses even the margin: nothing to cut
-  if (beyond) return mesh;
   constexpr std::uint32_t kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   for (std::uint32_t f = 0; f < 6; ++f) {
     mesh->triangles.insert(mesh->triangles.end(), {{kFaces[f][0], kFaces[f][1], kFaces[f][2]}, {kFaces[f][0], kFaces[f][2], kFaces[f][3]}});

@@ -7,7 +7,6 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
-#include <regex>
 
 #include "apps/csg/process.h"
 
@@ -47,9 +46,13 @@ std::optional<std::array<double, 7>> askOpenscad(const std::string& path, const 
 }
 
 // A value that differs from openscad's own was set; one that does not, was when the source writes it (it may also be an included file).
-bool isSet(const std::string& source, const char* name, const double* value, const double* unset, int count) {
-  const std::regex assignment(std::string("\\") + name + "\\s*=[^=]");
-  return !std::equal(value, value + count, unset) || std::regex_search(source, assignment);
+bool isSet(const std::string& source, const std::string& name, const double* value, const double* unset, int count) {
+  if (!std::equal(value, value + count, unset)) return true;
+  for (std::size_t at = source.find(name); at != std::string::npos; at = source.find(name, at + 1)) {
+    const std::size_t next = source.find_first_not_of(" \t\r\n", at + name.size());
+    if (next != std::string::npos && source[next] == '=' && source.compare(next, 2, "==") != 0) return true;
+  }
+  return false;
 }
 
 }  // namespace

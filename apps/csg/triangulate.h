@@ -1,7 +1,7 @@
 // Polygons with holes to triangles, in the plane: a constrained Delaunay triangulation.
 //
 // Based on: Sloan. A fast algorithm for generating constrained Delaunay triangulations. Computers & Structures 1993.
-// Orientations are exact (an error-bounded double first, 113 bits behind it), so loops may touch themselves and each other in corners and
+// Orientations are exact, so loops may touch themselves and each other in corners and
 // along edges; loops that cross are refused. The inside is where a ray meets the loops an odd number of times. Cost: O(n^1.5) at worst in
 // practice; no recursion.
 #pragma once
@@ -16,16 +16,7 @@
 
 namespace copeel::csg {
 
-// Positive where a, b, c turn left. The sign is exact.
-double orientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c);
-
-// Positive where d lies within the circle through a, b, c (a left turn), 0 where that is within rounding.
-double inCircle(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& d);
-
-// Loop i ends at loopEnds[i]. Triangles are indices of points, counter-clockwise. None where loops cross.
+// Loop i ends at loopEnds[i]. Triangles are indices of points, counter-clockwise. None where loops cross, or reach beyond 1e301.
 std::optional<std::vector<glm::uvec3>> triangulate(std::span<const glm::dvec2> points, std::span<const std::uint32_t> loopEnds);
-
-// One loop, each corner a left turn, once around.
-bool isConvexLoop(std::span<const glm::dvec2> points);
 
 }  // namespace copeel::csg

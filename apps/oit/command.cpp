@@ -82,7 +82,6 @@ void run(const CommandOptions& options) {
   steps.draw = [&](Stats& stats) {
     Renderer renderer(std::move(parts), renderOptions(options));
     frame = drawFrames(renderer, common, stats);
-    return std::vector<std::string>();
   };
   makePicture(common, steps, std::move(outputs), frame.color);
 }

@@ -151,13 +151,15 @@ HWY_INLINE HWY_ATTR void forEachSample(const TriangleSetup& t, KeyFormat format,
 }
 
 template <class Visit>
-HWY_INLINE HWY_ATTR bool forEachBlock(const TriangleSetup& t, const BlockRect& rect, Visit visit) {
+HWY_INLINE HWY_ATTR bool forEachBlock(const TriangleSetup& t, const BlockRect& rect, std::uint32_t finished, Visit visit) {
   const int bx0 = std::max(t.x0 / kBlockSize, rect.bx0), bx1 = std::min(t.x1 / kBlockSize + 1, rect.bx1);
   const int by0 = std::max(t.y0 / kBlockSize, rect.by0), by1 = std::min(t.y1 / kBlockSize + 1, rect.by1);
   for (int by = by0; by < by1; ++by) {
     for (int bx = bx0; bx < bx1; ++bx) {
+      const int index = by * kBlocksPerSide + bx;
+      if (finished >> index & 1) continue;
       const std::uint64_t covered = blockCoverage(t, bx * kBlockSize, by * kBlockSize);
-      if (covered && !visit(by * kBlocksPerSide + bx, bx * kBlockSize, by * kBlockSize, covered)) return false;
+      if (covered && !visit(index, bx * kBlockSize, by * kBlockSize, covered)) return false;
     }
   }
   return true;
@@ -194,8 +196,7 @@ HWY_ATTR bool CollectFragments(const TriangleSetup* triangles, std::size_t count
       });
       continue;
     }
-    const bool room = forEachBlock(t, rect, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
-      if (finished >> index & 1) return true;
+    const bool room = forEachBlock(t, rect, finished, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
       FragmentGrid::Block& block = grid.block(index);
       if (block.used == block.capacity && !grid.grow(block)) return false;
       ++block.used;
@@ -235,7 +236,7 @@ HWY_ATTR void CollectNearest(const TriangleSetup* triangles, std::size_t count, 
       });
       continue;
     }
-    forEachBlock(t, rect, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
+    forEachBlock(t, rect, 0, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
       for (int row = __builtin_ctzll(covered) / kBlockSize; row < kBlockSize; ++row) {
         const std::uint32_t mask = covered >> (row * kBlockSize) & 0xFF;
         if (!mask) continue;

@@ -32,6 +32,8 @@ struct TriangleSetup {
   double da, db, dc, lo, hi;
 };
 
+inline constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};   // of depths of keys
+
 struct KeyFormat {
   int depthBits = 40;               // slot bits are the rest of kKeyBits
   int slotBits() const { return kKeyBits - depthBits; }

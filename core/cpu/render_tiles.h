@@ -9,6 +9,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include "core/cpu/block_window.h"
 #include "core/cpu/walk.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -27,9 +28,12 @@ struct TileOptions {
   bool decideAllExactly = false;
 };
 
-// A tile is met in batches when it has several times the layers that a fold needs at least. Each batch repeats the fold of the
+// A tile is met in batches when it has many times the layers that a fold needs at least. Each batch repeats the fold of the
 // pixels that the one before left open, so batches grow fast.
-inline constexpr double kBatchGrowth = 4;
+inline constexpr double kBatchesFrom = 8, kBatchGrowth = 4;
+
+// Layers of a tile from which on ordering them all costs more than finding out which need it.
+inline constexpr double kNarrowFrom = 8;
 
 // Draws tiles with one fold. Owned by one thread.
 template <Fold F>
@@ -46,9 +50,12 @@ class TileRenderer {
     tile_.setUp(frame_);
     const double farthest = fold_.narrowTile(tile_);
     if (farthest == -std::numeric_limits<double>::infinity()) return;
+    // Where a single fragment may be enough, or few lie upon each other, narrowing is not worth its time.
+    narrows_ = fold_.leastFragments() >= 2 && tile_.layers() >= kNarrowFrom;
+    finished_ = narrows_ ? emptyBlocks() : 0;
+    if (finished_ == kAllBlocks) return;
     tile_.finish(farthest, options_.decideAllExactly);
     std::fill(std::begin(done_), std::end(done_), 0);
-    finished_ = 0;
     drawRect(BlockRect{0, 0, (tile_.width + kBlockSize - 1) / kBlockSize, (tile_.height + kBlockSize - 1) / kBlockSize});
   }
   TileCounts counts() const {
@@ -58,12 +65,24 @@ class TileRenderer {
   }
 
  private:
+  static constexpr std::uint32_t kAllBlocks = (1u << kBlocksPerTile) - 1;
+
+  // The blocks in which the fold sees that nothing shows.
+  std::uint32_t emptyBlocks() {
+    tile_.rangesOfBlocks(ranges_);
+    const std::size_t count = tile_.objects.size();
+    std::uint32_t empty = 0;
+    for (int b = 0; b < kBlocksPerTile; ++b) empty |= std::uint32_t{!fold_.mayShow({ranges_.data() + b * count, count})} << b;
+    return empty;
+  }
+
   void drawRect(const BlockRect& rect) {
     grid_.clear();
     grid_.setBudget(rect.count() == 1 ? ~std::size_t{0} : options_.gridBudgetBytes);
     double layers = fold_.needsWholeStack() ? 0 : 2 + 2 * fold_.leastFragments();
-    const bool batches = layers > 0 && tile_.layers() > kBatchGrowth / 2 * layers;
+    const bool batches = layers > 0 && tile_.layers() > kBatchesFrom * layers;
     if (batches && tile_.nearest.empty()) tile_.orderByDepth();
+    narrows_ &= tile_.nearest.empty();   // windows want the order of slots
     const std::span<const TriangleSetup> all = tile_.setups;
     for (std::size_t begin = 0;; layers *= kBatchGrowth) {
       const std::size_t end = batches ? std::max(tile_.setupsOfLayers(layers), begin) : all.size();
@@ -113,7 +132,8 @@ class TileRenderer {
   }
 
   bool foldBlock(int b, int x, int y, std::uint64_t limit) {
-    FragmentGrid::Block& block = grid_.block(b);
+    if (narrows_) window_.take(fold_, tile_, grid_.block(b));
+    FragmentGrid::Block& block = narrows_ ? window_.block() : grid_.block(b);
     sortBlock(block);
     walker_.begin(tile_, limit);
     const int columns = std::min(kBlockSize, tile_.width - x), rows = std::min(kBlockSize, tile_.height - y);
@@ -122,7 +142,8 @@ class TileRenderer {
       for (int column = 0; column < columns; ++column) {
         const int p = row * kBlockSize + column;
         if (done_[b] >> p & 1) continue;
-        const PixelStack stack{block.keys.get() + p, block.counts[p], kBlockPixels, tile_.format, tile_.slots.data()};
+        const PixelStack stack{block.keys.get() + p, block.counts[p], kBlockPixels, tile_.format, tile_.slots.data(),
+                               narrows_ ? window_.before(p) : std::span<const std::uint32_t>{}};
         const int px = tile_.x0 + x + column, py = tile_.y0 + y + row;
         if (walker_.walk(stack, px, py) == Walk::Finished) {
           fold_.endPixel(px, py);
@@ -144,6 +165,9 @@ class TileRenderer {
   Walker<F> walker_;
   std::uint64_t done_[kBlocksPerTile] = {};   // pixels, by block
   std::uint32_t finished_ = 0;                // blocks
+  std::vector<DepthRange> ranges_;            // [block][object]
+  BlockWindow window_;
+  bool narrows_ = false;
   TileCounts counts_;
 };
 

@@ -68,8 +68,7 @@ void Tile::setUp(const Frame& frame) {
   for (std::uint32_t i = 0; i < objects.size(); ++i) {
     TileObject& object = objects[i];
     if (!object.keep) continue;
-    object.least = std::numeric_limits<double>::infinity();
-    object.most = -object.least;
+    object.range = {};
     object.mirrored = mirrors(frame.scene.objects()[object.object].worldFromObject);
     // Batches run on from object to object.
     for (std::uint32_t k = object.firstReference; k < object.lastReference; ++k) {
@@ -140,17 +139,44 @@ void Tile::addDepth(const DepthPlane& plane, double u, double v, TileObject& obj
   const double small = t.dc + std::min(t.da * t.x0, t.da * t.x1) + std::min(t.db * t.y0, t.db * t.y1);
   const double large = t.dc + std::max(t.da * t.x0, t.da * t.x1) + std::max(t.db * t.y0, t.db * t.y1);
   const double error = plane.error;
-  const Range& range = ranges_.emplace_back(Range{std::clamp(small, t.lo, t.hi), std::clamp(large, t.lo, t.hi), error});
-  object.least = std::min(object.least, range.least - error);
-  object.most = std::max(object.most, range.most + error);
+  const SetupRange& range = ranges_.emplace_back(SetupRange{std::clamp(small, t.lo, t.hi), std::clamp(large, t.lo, t.hi), error});
+  object.range.add(range.least - error, range.most + error);
   leastError_ = std::min(leastError_, error);
+}
+
+void Tile::rangesOfBlocks(std::vector<DepthRange>& ranges) const {
+  ranges.assign(kBlocksPerTile * objects.size(), {});
+  constexpr int kLast = kBlockSize - 1;
+  for (std::size_t n = 0; n < setups.size(); ++n) {
+    const TriangleSetup& t = setups[n];
+    const std::uint32_t object = slots[t.slot].object;
+    if (!objects[object].keep) continue;
+    const double error = ranges_[n].error;
+    for (int by = t.y0 / kBlockSize; by <= t.y1 / kBlockSize; ++by) {
+      for (int bx = t.x0 / kBlockSize; bx <= t.x1 / kBlockSize; ++bx) {
+        const int x = bx * kBlockSize, y = by * kBlockSize;
+        // An edge with the whole block on its outer side keeps the triangle out.
+        bool outside = false;
+        for (int i = 0; i < 3; ++i) {
+          outside |= t.a[i] * (t.a[i] > 0 ? x + kLast : x) + t.b[i] * (t.b[i] > 0 ? y + kLast : y) + t.c[i] < 0;
+        }
+        if (outside) continue;
+        const int left = std::max<int>(t.x0, x), right = std::min<int>(t.x1, x + kLast);
+        const int top = std::max<int>(t.y0, y), bottom = std::min<int>(t.y1, y + kLast);
+        const double small = t.dc + t.da * (t.da < 0 ? right : left) + t.db * (t.db < 0 ? bottom : top);
+        const double large = t.dc + t.da * (t.da < 0 ? left : right) + t.db * (t.db < 0 ? top : bottom);
+        ranges[(by * kBlocksPerSide + bx) * objects.size() + object].add(std::clamp(small, t.lo, t.hi) - error,
+                                                                         std::clamp(large, t.lo, t.hi) + error);
+      }
+    }
+  }
 }
 
 void Tile::finish(double farthest, bool decideAllExactly) {
   std::size_t kept = 0;
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (std::size_t i = 0; i < setups.size(); ++i) {
-    const Range& range = ranges_[i];
+    const SetupRange& range = ranges_[i];
     if (!objects[slots[setups[i].slot].object].keep || range.least > farthest) continue;
     least = std::min(least, range.least), most = std::max(most, range.most);
     if (kept < i) setups[kept] = setups[i], ranges_[kept] = range;

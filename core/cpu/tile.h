@@ -1,7 +1,9 @@
 // A tile: the triangles that touch it, set up for the kernels. Its depth keys span just the depths that occur in it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -20,12 +22,19 @@ struct TileSlot {
   std::uint64_t uncertainty;     // bound of the depth error, key units
 };
 
+// Order values (depth_planes.h) that triangles reach, their error bounds included; as made, of none.
+struct DepthRange {
+  double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity();
+  void add(double from, double to) { least = std::min(least, from), most = std::max(most, to); }
+  bool empty() const { return least > most; }
+};
+
 struct TileObject {
   std::uint32_t object;                     // of the scene
   std::uint32_t firstReference, lastReference;
   bool keep = true;                         // cleared by a fold that has no use for the object in this tile
   bool mirrored = false;                    // after setUp: its faces are turned inside out
-  double least = 0, most = 0;               // after setUp: bounds of its order values in the tile (depth_planes.h)
+  DepthRange range{};                       // after setUp: in the tile
 };
 
 class Tile {
@@ -34,6 +43,8 @@ class Tile {
   void begin(const Frame& frame, int index);
   // Sets the triangles of the kept objects up, and finds their depths.
   void setUp(const Frame& frame);
+  // The same in each block, [block][object]; blocks that a triangle just passes by may count as touched. After setUp, before finish.
+  void rangesOfBlocks(std::vector<DepthRange>& ranges) const;
   // Drops the triangles of objects that are no longer kept and those wholly beyond `farthest`; scales depths to keys.
   void finish(double farthest, bool decideAllExactly);
   // Orders the setups by nearest depth, so that they can be met front to back.
@@ -67,10 +78,10 @@ class Tile {
   };
   EdgeBatch edges_;
   Gathered gathered_[kEdgeBatch];
-  struct Range {
-    double least, most, error;
+  struct SetupRange {
+    double least, most, error;              // the bounds without the error
   };
-  std::vector<Range> ranges_;               // order values of each setup in the tile
+  std::vector<SetupRange> ranges_;          // order values of each setup in the tile
   double leastError_ = 0;                   // of all slots
   std::vector<std::uint64_t> order_;        // of orderByDepth, kept for their memory
   std::vector<TriangleSetup> sorted_;

@@ -44,8 +44,6 @@ class ExactStack {
   std::uint32_t groups_ = 0;
 };
 
-inline constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
-
 // Walks pixels of one tile. Neighbouring pixels mostly meet the same triangles in the same order: then the fold's state at the end of the last
 // pixel is that of this one too, and the fold is not asked again.
 template <Fold F>
@@ -83,6 +81,7 @@ class Walker {
   // True when the pixel starts with the fragments that decided the last one, its groups as certainly apart.
   bool repeats(const PixelStack& stack) const {
     const auto count = static_cast<std::uint32_t>(met_.size());
+    if (!std::equal(before_.begin(), before_.end(), stack.before.begin(), stack.before.end())) return false;
     if (enough_ ? stack.count < count : stack.count != count) return false;
     std::uint64_t last = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -98,6 +97,7 @@ class Walker {
   Walk walkCertain(const PixelStack& stack, int x, int y) {
     fold_.beginPixel(stack);
     met_.clear();
+    before_.assign(stack.before.begin(), stack.before.end());
     coplanar_ = enough_ = false;
     for (std::uint32_t i = 0; i < stack.count && !enough_;) {
       const std::uint32_t begin = i, planeClass = stack.slots[stack.slot(i)].planeClass;
@@ -150,7 +150,8 @@ class Walker {
   bool coarse_ = false;
   std::uint64_t uncertainty_ = 0;   // of all slots but the coarse, key units
   std::uint64_t limit_ = kNoLimit;
-  std::vector<Met> met_;            // what the last pixel walked, while `remembers_`
+  std::vector<std::uint32_t> before_;   // of the last pixel, while `remembers_`
+  std::vector<Met> met_;            // what it walked
   bool remembers_ = false, coplanar_ = false, enough_ = false;
 };
 

@@ -5,34 +5,50 @@
 
 #include <concepts>
 #include <cstdint>
+#include <span>
 
 #include "core/cpu/tile.h"
 
 namespace copeel {
 
-// The ordered fragments of a pixel, for folds that must look at all of them first.
+// The fragments of a pixel.
 struct PixelStack {
   const std::uint64_t* keys;
   std::uint32_t count;
   std::uint32_t stride;
   cpu::KeyFormat format;
   const cpu::TileSlot* slots;
+  std::span<const std::uint32_t> before = {};   // slots in front of all keys, in no order
 
   std::uint64_t key(std::uint32_t i) const { return keys[std::size_t{i} * stride]; }
   std::uint32_t slot(std::uint32_t i) const { return format.slotOf(key(i)); }
+  // Bounds of the true depth, in key units.
+  cpu::DepthRange depth(std::uint32_t i) const {
+    const std::uint64_t k = key(i);
+    const auto depth = static_cast<double>(static_cast<std::int64_t>(format.depthOf(k)));
+    const auto uncertainty = static_cast<double>(static_cast<std::int64_t>(slots[format.slotOf(k)].uncertainty));
+    return {depth - uncertainty, depth + uncertainty};
+  }
 };
 
 template <class F>
-concept Fold = requires(F fold, cpu::Tile& tile, const PixelStack& stack, std::uint32_t slot, int x, int y) {
+concept Fold = requires(F fold, cpu::Tile& tile, std::span<const cpu::DepthRange> ranges, const PixelStack& stack, std::uint32_t slot,
+                        int x, int y) {
   // Looks at the tile's objects, may drop some; false: no pixel of the tile shows anything.
   { fold.beginTile(tile) } -> std::same_as<bool>;
   // Looks at the depths of the kept objects, may drop more; returns the order value (depth_planes.h) beyond which nothing matters,
   // -inf when no pixel of the tile shows anything.
   { fold.narrowTile(tile) } -> std::convertible_to<double>;
+  // False: no pixel shows anything where the tile's objects lie in these ranges, as in a part of the tile.
+  { fold.mayShow(ranges) } -> std::same_as<bool>;
   // True when the tile's pixels need their whole stack before they start.
   { fold.needsWholeStack() } -> std::same_as<bool>;
   // No pixel of the tile has enough with fewer fragments.
   { fold.leastFragments() } -> std::convertible_to<double>;
+  // For a pixel with its fragments in the order of their slots: bounds of the depths in which results can be true, in key units.
+  // Fragments certainly in front of it need no order, those behind it are not needed.
+  { fold.window(stack) } -> std::same_as<cpu::DepthRange>;
+  // The ordered fragments of a pixel; those of `before` count as met.
   fold.beginPixel(stack);
   fold.fragment(slot);
   // The fragments since the last call lie at one depth. True: enough, nothing behind matters.

@@ -127,7 +127,7 @@ class BinaryValues {
   // Blanks and line ends at the end are harmless; some writers add them.
   void expectEnd() {
     for (; at_ < source_.size(); ++at_) {
-      if (!std::strchr(" \t\r\n", source_.data()[at_])) fail("more bytes follow the elements of the header");
+      if (std::string_view(" \t\r\n").find(source_.data()[at_]) == std::string_view::npos) fail("more bytes follow the elements of the header");
     }
   }
   template <class... Args>
@@ -184,10 +184,13 @@ class PlyBody {
  private:
   // The header's count, or what the file could hold of it at most.
   std::size_t possibleCount(std::string_view name) const {
-    std::size_t count = 0;
+    std::size_t count = 0, bytesLeft = sourceBytes_;
     for (const PlyElement& e : header_.elements) {
       const std::size_t bytes = e.smallestBytes(header_.encoding != PlyHeader::Encoding::Ascii);
-      if (e.name == name && bytes > 0) count += std::min<std::uint64_t>(e.count, sourceBytes_ / bytes + 1);
+      if (e.name != name || bytes == 0) continue;
+      const std::uint64_t some = std::min<std::uint64_t>(e.count, bytesLeft / bytes);
+      count += some;
+      bytesLeft -= some * bytes;
     }
     return count;
   }

@@ -59,7 +59,7 @@ Mesh readBinary(const Source& source) {
     for (int k = 0; k < 9; ++k) {
       if (!std::isfinite(c[k])) source.failAtByte(place + 4 * k, "a coordinate is not a finite number: {}", c[k]);
     }
-    const auto first = static_cast<std::uint32_t>(builder.vertexCount());
+    const std::uint32_t first = builder.index(static_cast<std::int64_t>(builder.vertexCount() + 2), place) - 2;
     for (int k = 0; k < 9; k += 3) builder.addVertex({c[k], c[k + 1], c[k + 2]});
     builder.addFace(std::array<std::uint32_t, 3>{first, first + 1, first + 2}, place);
   }

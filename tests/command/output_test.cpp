@@ -1,9 +1,11 @@
 // Where results go, what is in them, and that a failure leaves nothing behind. Hard case 14, from outside.
 #include <cmath>
+#include <cstring>
 #include <fstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/image/write_image.h"
@@ -13,6 +15,12 @@ namespace copeel {
 namespace {
 
 using Output = ProgramTest;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kHasSanitizer = true;
+#else
+constexpr bool kHasSanitizer = false;
+#endif
 using Words = std::vector<std::string>;
 
 TEST_F(Output, IsNamedAfterTheInputInTheCurrentFolder) {
@@ -29,6 +37,25 @@ TEST_F(Output, NamesWithBlanksUtf8QuotesAndDashes) {
     EXPECT_EQ(run({"csg", "--imgsize", "16,16", "--", name + ".csg"}).exitCode, 0);
     EXPECT_TRUE(std::filesystem::exists(folder_ / (name + ".png")));
   }
+}
+
+// Reading, too: a text of 4 MB becomes a tape of some 14 MB, and each binary STL of 10^5 triangles a mesh of 8 MB.
+TEST_F(Output, MemoryBeyondTheLimitIsTheMachinesLimit) {
+  if (kHasSanitizer) GTEST_SKIP() << "the sanitizer's own memory is past any limit";
+  std::string text = "group() {\n";
+  for (int i = 0; i < 50000; ++i) text += "multmatrix([[1,0,0," + std::to_string(2 * i) + "],[0,1,0,1],[0,0,1,1],[0,0,0,1]]) { cube(1); }\n";
+  write("long.csg", text + "}\n");
+  const std::uint32_t count = 100000;
+  std::string mesh(84 + std::size_t{50} * count, '\0');
+  std::memcpy(mesh.data() + 80, &count, 4);
+  write("large.stl", mesh);
+  for (const std::string input : {"long.csg", "large.stl"}) {
+    const Outcome outcome = run({"csg", input, "--memory", "4M", "--threads", "1", "-o", "a.png", "--stats", "a.json"});
+    expectFailure(outcome, 3);
+    EXPECT_NE(outcome.standardError.find("not enough memory"), std::string::npos) << outcome.standardError;
+  }
+  EXPECT_EQ(run({"csg", "long.csg", "--memory", "2G", "--imgsize", "16,16"}).exitCode, 0);
+  EXPECT_EQ(files(), (Words{"large.stl", "long.csg", "long.png", "part.csg"}));
 }
 
 TEST_F(Output, StatsHoldTheContract) {
@@ -185,10 +212,23 @@ TEST_F(Output, LinksAreFollowed) {
   EXPECT_EQ(contentOf(folder_ / "sub/real.png").substr(1, 3), "PNG");
 }
 
+TEST_F(Output, AFaultOfTheSceneNamesTheFile) {
+  write("far.csg", "multmatrix([[1e300,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) cube(1);");
+  const Outcome outcome = run({"csg", "far.csg"});
+  expectFailure(outcome, 1);
+  EXPECT_EQ(outcome.standardError.substr(0, 25), "copeel: far.csg: object 1");
+}
+
+TEST_F(Output, AnInputMayBeAPipe) {
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  const std::string command = "cd '" + folder_.string() + "' && (printf 'v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3\\n' > pipe; echo $? > wrote) & cd '" +
+                              folder_.string() + "' && timeout 20 '" + COPEEL_PROGRAM + "' csg pipe -q -o a.png; code=$?; wait; exit $code";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(contentOf(folder_ / "wrote"), "0\n");
+}
+
 TEST_F(Output, TooLittleMemoryIsExitThree) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the sanitizer's own memory is past any limit";
-#endif
+  if (kHasSanitizer) GTEST_SKIP() << "the sanitizer's own memory is past any limit";
   expectFailure(run({"csg", "part.csg", "--imgsize", "16384,16384", "--memory", "64M"}), 3);
   EXPECT_EQ(files(), Words{"part.csg"});
 }

@@ -40,6 +40,10 @@ constexpr Scene kScenes[] = {
     {"background_counts", "cube(8); %translate([30,0,0]) cube(5);", "", true},
     {"orthographic", "rotate([10,20,30]) cube([10,20,30]);", "--projection=o --camera=1,2,3,70,10,200,90"},
     {"other_colours", "difference() { cube(20,center=true); cylinder(r=5,h=40,center=true,$fn=40); }", "--colorscheme=Sunset --camera=60,-50,80,0,0,0"},
+    {"colours_left_open",
+     "color([-1,1,0.5,1]) cube(10); translate([15,0,0]) color(alpha=0.5) color(\"red\") cube(10); translate([30,0,0]) color([1,0,1]) "
+     "color(alpha=0.2) cube(10); translate([0,20,0]) difference() { cube(10); color([-1,-1,1]) translate([2,2,5]) cube([6,6,9]); } "
+     "translate([15,20,0]) %color([0,0,1]) cube(10);", "--colorscheme=Tomorrow"},
     {"coloured", "color(\"SteelBlue\") rotate([0,0,15]) cube(10); color([0.9,0.3,0.1]) translate([12,3,1]) sphere(6,$fn=24);", ""},
 };
 

@@ -61,6 +61,22 @@ TEST(CsgSyntax, damageIsNamedWithItsLine) {
   EXPECT_NE(failureOf("text(\"a"), "");
 }
 
+// A warning a line: each names its own, and 10^5 of them take no longer to number than to write (it was minutes).
+TEST(CsgSyntax, aWarningOnEveryLine) {
+  std::string text;
+  for (int i = 0; i < 100000; ++i) text += "multmatrix([[0,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) cube(1);\n";
+  const Model model = parse(text);
+  ASSERT_EQ(model.warnings.size(), 100000u);
+  EXPECT_EQ(model.warnings[0].substr(0, 11), "part.csg:1:");
+  EXPECT_EQ(model.warnings[99999].substr(0, 16), "part.csg:100000:");
+}
+
+// The items of an inner vector are not the outer one's.
+TEST(CsgSyntax, aRangeBeginsWithANumberOfItsOwn) {
+  EXPECT_EQ(failureOf("polygon(points=[[[1] : 2]]);"), "part.csg:1: unexpected :");
+  EXPECT_EQ(failureOf("polygon(points=[[1, 2 : 3]]);"), "part.csg:1: unexpected :");
+}
+
 TEST(CsgSyntax, byteOrderMarkCrlfAndCommentsAreTaken) {
   EXPECT_EQ(parse("\xEF\xBB\xBF// a part\r\ngroup() {\r\n\tcube(1);\r\n}\r\n/* end */").leaves.size(), 1u);
   EXPECT_EQ(parse("").root, kNoNode);

@@ -69,6 +69,23 @@ TEST(Semantics, emptyOperandsMeanWhatTheyMeanInOpenscad) {
   }
 }
 
+// Both ended the program: a face of one place, and one whose corners lie farther apart than a double reaches.
+TEST(Polyhedron, facesOfNoExtentOrOfTooMuch) {
+  const Model point = parse("polyhedron(points=[[1,1,0],[1,1,0],[1,1,0],[1,1,0]],faces=[[0,1,2,3]]);");
+  EXPECT_EQ(point.leaves.at(0).mesh->triangles.size(), 2u);
+  const Model huge = parse("polyhedron(points=[[0,0,0],[1e308,0,0],[-1e308,1e307,0],[0,1e308,0],[-1e308,-1e308,1]],faces=[[0,1,2,3,4]]);");
+  EXPECT_EQ(huge.leaves.at(0).mesh->triangles.size(), 3u);
+}
+
+TEST(Semantics, anOuterColourThatIsNotWholeGivesWay) {
+  const Model model = parse("color([-1,-1,-1,0.5]) { color([1,0,0,1]) cube(1); cube(1); } color([1,0,0,1]) color([-1,-1,-1,0.5]) cube(1); "
+                            "color([-1,1,0.5,-1]) cube(1);");
+  EXPECT_EQ(*model.leaves[0].color, glm::dvec4(1, 0, 0, 1));
+  EXPECT_EQ(*model.leaves[1].color, glm::dvec4(-1, -1, -1, 0.5));
+  EXPECT_EQ(*model.leaves[2].color, glm::dvec4(1, 0, 0, 1));
+  EXPECT_EQ(*model.leaves[3].color, glm::dvec4(-1, 1, 0.5, 1));
+}
+
 TEST(Semantics, theOuterColourShows) {
   const Model model = parse("color([1,0,0,1]) { color([0,0,1,0.5]) cube(1); sphere(1); } cube(1); color(\"#8000\") cube(1); color(\"Tomato\",0.25) cube(1);");
   EXPECT_EQ(*model.leaves[0].color, glm::dvec4(1, 0, 0, 1));

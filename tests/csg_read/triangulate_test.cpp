@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/csg/orientation.h"
 #include "apps/csg/triangulate.h"
 
 namespace copeel::csg {
@@ -90,6 +91,31 @@ TEST(Triangulate, collinearCornersNeedlesAndRepeatedPoints) {
   Loops none;
   none.add({{0, 0}, {1, 1}, {2, 2}});
   expectArea(none, 0);
+}
+
+// A face of one place, and faces so far out that their extent is lost beside their coordinates.
+TEST(Triangulate, facesWithoutAnExtent) {
+  for (const std::vector<glm::dvec2>& corners : std::vector<std::vector<glm::dvec2>>{
+           {{1, 1}, {1, 1}, {1, 1}, {1, 1}}, {{1, 1}, {2, 2}, {1, 1}}, {{0, 1e20}, {1, 1e20}, {2, 1e20}, {3, 1e20}},
+           {{-1e30, 0}, {-1e30, 1e-100}, {-1e30, 2e-100}}}) {
+    Loops loops;
+    loops.add(corners);
+    expectArea(loops, 0);
+  }
+}
+
+TEST(Triangulate, whatNoFrameCanHoldIsRefused) {
+  Loops loops;
+  loops.add({{0, 0}, {1e308, 0}, {-1e308, 1e307}, {0, 1e308}});
+  EXPECT_FALSE(triangulate(loops.points, loops.ends).has_value());
+}
+
+// On the line through a and b, up to the last bit of a coordinate of any size.
+TEST(Triangulate, orientationIsExact) {
+  const glm::dvec2 a(0.1, 0.1), b(1e17 + 16, 1e17 + 16);
+  EXPECT_EQ(orientation(a, b, {3e-30, 3e-30}), 0);
+  EXPECT_GT(orientation(a, b, {3e-30, std::nextafter(3e-30, 1)}), 0);
+  EXPECT_LT(orientation(a, b, {3e-30, std::nextafter(3e-30, 0)}), 0);
 }
 
 TEST(Triangulate, loopsThatCrossAreRefused) {

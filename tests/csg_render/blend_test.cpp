@@ -74,6 +74,45 @@ TEST(Blend, aSubtractedSolidOwnsTheFacesItLeaves) {
   expectColor(middle(subtract({body, cube(1, with(kGreen, 0), {0, 0, 1.5})})), 0, 0, 0);
 }
 
+// As openscad does: color([-1, 1, -1, 0.5]) is what color(alpha = 0.5) and the like become in a .csg.
+TEST(Blend, whatAColourLeavesOpenTheSchemeDecides) {
+  const glm::dvec4 halfOfNothing(-1, -1, -1, 0.5), green(-1, 1, -1, 1);
+  const csg::ColorScheme scheme;
+  const auto& front = scheme.front;
+  const auto& cutout = scheme.cutout;
+  expectColor(middle(cube(1, halfOfNothing)), front[0] / 2, front[1] / 2, front[2] / 2);
+  expectColor(middle(cube(1, green)), front[0], 255, front[2]);
+  const Tree body = cube(2, kRed);
+  expectColor(middle(subtract({body, cube(1, halfOfNothing, {0, 0, 1.5})})), cutout[0] / 2, cutout[1] / 2, cutout[2] / 2);
+}
+
+// Each part is cut open in its own colour, whatever cut it before; the later one where two overlap.
+TEST(Blend, theCapOfASectionBelongsToThePartThatItCuts) {
+  const auto cutOpen = [](const Tree& tree, double at) {
+    csg::RenderOptions options;
+    options.lit = false;
+    options.scheme.background = {0, 0, 0};
+    options.sections = {{2, at}};
+    return draw(modelOf(tree), kAbove, options).frame;
+  };
+  const Tree red = cube(1, kRed), green = cube(1, kGreen, {0, 0, -1.5}), away = cube(1, kBlue, {0, 0, 40});
+  expectColor(cutOpen(unite({red, green, away}), 0.5).color.at(10, 10), 255, 0, 0);
+  expectColor(cutOpen(unite({red, green, away}), -2).color.at(10, 10), 0, 255, 0);
+  expectColor(cutOpen(unite({red, green}), -0.75).color.at(10, 10), 0, 255, 0);
+  expectColor(cutOpen(unite({green, red}), -0.75).color.at(10, 10), 255, 0, 0);
+  EXPECT_EQ(cutOpen(unite({red, green, away}), -2).ids.at(10, 10), 2);
+  // Below the bottom of a pocket, and what a part cut from a cutter leaves.
+  expectColor(cutOpen(subtract({red, cube(1, kGreen, {0, 0, 1.5})}), 0.25).color.at(10, 10), 255, 0, 0);
+  expectColor(cutOpen(subtract({red, subtract({cube(2, kGreen), cube(0.5, kBlue)})}), 0.25).color.at(10, 10), 255, 0, 0);
+  expectColor(cutOpen(intersect({cube(1, kRed), cube(2, kGreen)}), 0.25).color.at(10, 10), 0, 255, 0);
+  // Glass is cut open to glass, and shows the opaque part that it holds.
+  expectColor(cutOpen(cube(1, with(kRed, 0.5)), 0.25).color.at(10, 10), 128, 0, 0);
+  expectColor(cutOpen(unite({cube(0.5, kBlue), cube(1, with(kRed, 0.5))}), 0.25).color.at(10, 10), 128, 0, 128);
+  // A part without a colour has the scheme's front, not that of what is cut out.
+  const auto& front = csg::ColorScheme{}.front;
+  expectColor(cutOpen(leaf(box(glm::dvec3(-1), glm::dvec3(1))), 0.25).color.at(10, 10), front[0], front[1], front[2]);
+}
+
 TEST(Blend, theLaterOperandWinsASharedFace) {
   expectColor(middle(unite({cube(1, kRed), cube(1, kGreen)})), 0, 255, 0);
   expectColor(middle(unite({cube(1, kGreen), cube(1, kRed)})), 255, 0, 0);
@@ -83,10 +122,13 @@ TEST(Blend, theLaterOperandWinsASharedFace) {
 
 TEST(Blend, partsWithModifiersLieOverTheSolid) {
   csg::Model model;
-  const std::uint32_t solid = addTree(model, cube(1, kBlue)), marked = addTree(model, cube(1, kBlue, {0, 0, 3}));
+  const std::uint32_t solid = addTree(model, cube(1, kBlue)), marked = addTree(model, leaf(box({-1, -1, 2}, {1, 1, 4})));
   model.root = solid;
   model.background = {marked};
   expectColor(middle(model), 90, 90, 90 + 127);
+  // A colour of its own goes before the grey.
+  model.leaves[1].color = with(kRed, 0.25);
+  expectColor(middle(model), 64, 0, 191);
   EXPECT_EQ(drawn(model).ids.at(10, 10), 1);
   model.background = {};
   model.highlight = {solid};

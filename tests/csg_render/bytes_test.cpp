@@ -30,7 +30,16 @@ std::vector<Case> cases() {
                             leaf(box({-1, -1, -1}, {1, 1, 1}), glm::dvec4(0, 1, 0, 1))});
   Tree copies = unite({});
   for (int i = 0; i < 64; ++i) copies.children.push_back(leaf(sphere(2, 20, 11)));
-  return {{"plate", modelOf(plate), lookAt({14, -9, 17}, {5, 5, 1}, 90, 70, 0.01)},
+  // Deep enough for windows (core/cpu/block_window.h): unions that share the planes of their ends, every other one turned out of them.
+  Tree products = intersect({});
+  for (int i = 0; i < 10; ++i) {
+    const std::optional<glm::dvec4> color = i % 3 == 1 ? std::optional(glm::dvec4(0, 0, 1, 0.5)) : std::nullopt;
+    const glm::dmat4 turn = rotation({i % 2 * 180.0, i % 4 == 3 ? 20.0 * i : 0, 18.0 * i});
+    products.children.push_back(unite({leaf(box({-3, -3, -2}, {3, 3, 2}), color, turn), leaf(prism({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, 4), {}, turn)}));
+  }
+  products = subtract({products, leaf(box({0, 0, -3}, {1, 1, 2}))});
+  return {{"products of unions", modelOf(products), lookAt({9, 11, 14}, {0, 0, 0}, 44, 36, 0.02)},
+          {"plate", modelOf(plate), lookAt({14, -9, 17}, {5, 5, 1}, 90, 70, 0.01)},
           {"turned plate", modelOf(turned(plate)), lookAt({4, -19, 17}, {3, 5, 1}, 90, 70, 0.01, true)},
           {"translucent balls", modelOf(balls), lookAt({5, 6, 7}, {0.5, 0, 0}, 90, 70, 0.008)},
           {"64 copies", modelOf(copies), lookAt({5, 6, 7}, {0, 0, 0}, 70, 70, 0.01)},

@@ -78,9 +78,13 @@ TEST(Winding, sectionsThatCoincideWithAFaceChangeNothingBesideIt) {
 TEST(Winding, sectionsShowTheirCaps) {
   const Tree tree = leaf(box({-1, -1, -1}, {1, 1, 1}));
   EXPECT_FLOAT_EQ(drawWith(tree, kAbove, InsideRule::NonZero, {{2, 0.25, false}}).depth.at(20, 20), 19.75);
-  EXPECT_EQ(drawWith(tree, kAbove, InsideRule::NonZero, {{2, 0.25, false}}).ids.at(20, 20), 2);
-  EXPECT_TRUE(std::isinf(drawWith(tree, kAbove, InsideRule::NonZero, {{2, 1e9, true}}).depth.at(20, 20)));
-  EXPECT_FLOAT_EQ(drawWith(tree, kAbove, InsideRule::NonZero, {{2, 1e9, false}}).depth.at(20, 20), 19);
+  EXPECT_EQ(drawWith(tree, kAbove, InsideRule::NonZero, {{2, 0.25, false}}).ids.at(20, 20), 1);
+  for (const double far : {1e9, 1e300}) {
+    EXPECT_TRUE(std::isinf(drawWith(tree, kAbove, InsideRule::NonZero, {{2, -far, false}}).depth.at(20, 20)));
+    EXPECT_TRUE(std::isinf(drawWith(tree, kAbove, InsideRule::NonZero, {{2, far, true}}).depth.at(20, 20)));
+    EXPECT_FLOAT_EQ(drawWith(tree, kAbove, InsideRule::NonZero, {{2, far, false}}).depth.at(20, 20), 19);
+    EXPECT_FLOAT_EQ(drawWith(tree, kAbove, InsideRule::NonZero, {{2, -far, true}}).depth.at(20, 20), 19);
+  }
 }
 
 }  // namespace

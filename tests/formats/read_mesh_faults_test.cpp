@@ -78,6 +78,20 @@ TEST(Faults, whatTheCountsLeaveOverIsNotDropped) {
   EXPECT_NE(faultOf("solid\nendsolid\nrubbish\n"), "");
 }
 
+// A zero byte may be the first of a coordinate that the counts forgot.
+TEST(Faults, zeroBytesAfterABinaryFileAreNotBlanks) {
+  const std::string empty = binaryPly("1", std::string(12, '\0') + bytesOf(std::uint32_t{0}));
+  EXPECT_EQ(faultOf(empty + "\r\n \n"), "");
+  EXPECT_NE(faultOf(empty + std::string(12, '\0')), "");
+}
+
+// Each element may claim what the file could hold, all of them together no more.
+TEST(Faults, manyElementsClaimNoMoreMemoryThanOne) {
+  std::string ply = "ply\nformat binary_little_endian 1.0\n";
+  for (int i = 0; i < 30000; ++i) ply += "element face 1000000000000\nproperty list uchar int vertex_indices\n";
+  EXPECT_NE(faultOf(ply + "end_header\n" + std::string(10, '\0')).find("truncated"), std::string::npos);
+}
+
 TEST(Faults, countsOfFourBillionNeitherAllocateNorHang) {
   for (const std::string count : {"4000000000", "4294967296", "9223372036854775807", "99999999999999999999"}) {
     EXPECT_NE(faultOf("OFF\n" + count + " 1 0\n0 0 0\n"), "");

@@ -43,6 +43,8 @@ class StackFold {
   StackFold(Stacks& stacks, Wanted wanted) : stacks_(stacks), wanted_(wanted) {}
   bool beginTile(cpu::Tile&) { return true; }
   double narrowTile(cpu::Tile&) const { return std::numeric_limits<double>::infinity(); }
+  bool mayShow(std::span<const cpu::DepthRange>) const { return true; }
+  cpu::DepthRange window(const PixelStack&) const { return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}; }
   bool needsWholeStack() const { return false; }
   double leastFragments() const { return 1; }
   void beginPixel(const PixelStack& stack) {

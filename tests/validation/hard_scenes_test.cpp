@@ -256,6 +256,48 @@ TEST(HardScenes, Case13_t_junctions_and_lone_triangles) {
   expectRight(polyhedron({{-10, -10, 0}, {10, -10, 0}, {0, 10, 0}}, {{0, 1, 2}}), usualLooks());
 }
 
+// A zero-area facet has a plane class of its own, with any normal across it and a depth held to its own extent. It covers samples only by the
+// snapping of its corners, within a sub-pixel step of its projection: edge pixels. Turned leaves have needles whose area is rounding.
+TEST(HardScenes, Case13_needles_without_area) {
+  std::vector<glm::dvec3> points;
+  for (int i = 0; i < 8; ++i) points.push_back({i & 1 ? 10 : -10, i & 2 ? 10 : -10, i & 4 ? 10 : -10});
+  // One of the two faces at an edge has further corners on it; needles close the gap.
+  std::vector<std::vector<int>> faces;
+  for (const std::vector<int>& face : std::vector<std::vector<int>>{{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    std::vector<int> ring;
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const int a = face[i], b = face[(i + 1) % face.size()];
+      ring.push_back(a);
+      if (a > b) continue;
+      int last = a;
+      for (int k = 1; k < 8; ++k) {
+        points.push_back(points[a] + (points[b] - points[a]) * (k / 8.0));
+        ring.push_back(static_cast<int>(points.size()) - 1);
+        faces.push_back({a, ring.back(), last});
+        last = ring.back();
+      }
+      faces.push_back({a, b, last});
+    }
+    faces.push_back(ring);
+  }
+  const std::string needles = polyhedron(points, faces), plain = box({-10, -10, -10}, {10, 10, 10});
+  const std::string opening = box({-4, -20, -20}, {3, 20, 7});
+  const std::uint64_t covered = expectRight(join("difference", {plain, opening}), usualLooks());
+  EXPECT_EQ(expectRight(join("difference", {needles, opening}), usualLooks()), covered);
+  expectRight(join("difference", {moved(needles, turn(10, 20, 30)), opening}), usualLooks());
+  // Needles of both orientations across the solid, through it and far out of it.
+  points.insert(points.end(), {{-30, -25, -20}, {30, 25, 20}, {0, 0, 0}, {12, 10, 8}});
+  const int n = static_cast<int>(points.size());
+  for (const std::vector<int>& needle : std::vector<std::vector<int>>{{n - 4, n - 3, n - 2}, {n - 4, n - 1, n - 3}, {0, n - 2, 7}, {n - 4, n - 4, n - 3}}) {
+    faces.push_back(needle);
+    faces.push_back({needle[2], needle[1], needle[0]});
+  }
+  const std::string spikes = polyhedron(points, faces);
+  expectRight(join("difference", {spikes, opening}), usualLooks());
+  expectRight(join("difference", {plain, moved(spikes, translation({6, 0, 5}))}), usualLooks());
+  expectRight(join("difference", {moved(spikes, turn(10, 20, 30)), opening}), usualLooks());
+}
+
 // ---- 15: trees
 
 TEST(HardScenes, Case15_identities_of_trees) {
