@@ -232,6 +232,9 @@ void Frame::target(const std::string& name, int attachment, GLenum format) {
     glCreateTextures(GL_TEXTURE_2D, 1, &texture);
     target.texture = Texture(texture);
     glTextureStorage2D(texture, 1, format, width_, height_);
+    // An integer texture that would be filtered reads as 0.
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     target.format = format;
   }
   target.usedIn = frames_;
@@ -244,6 +247,7 @@ void Frame::writeTargets(int count) {
   for (int i = 0; i < count; ++i) attachments[i] = static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + i);
   if (count > 0) glNamedFramebufferDrawBuffers(framebuffer_, count, attachments);
   else glNamedFramebufferDrawBuffer(framebuffer_, GL_NONE);
+  targetCount_ = count;
 }
 
 void Frame::clearTarget(int attachment, GLuint word) {
@@ -280,7 +284,8 @@ void Frame::finish() {
 }
 
 void Frame::drawObjects(const Program& program, std::uint32_t begin, std::uint32_t end) {
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+  // A pass without targets and depth test may read them all.
+  glBindFramebuffer(GL_FRAMEBUFFER, targetCount_ > 0 || depthTested_ ? framebuffer_ : noTargets_);
   glUseProgram(program.name());
   scene_.draw(clip_, begin, end);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -302,12 +307,16 @@ void Frame::clearDepth() {
 
 void Frame::testDepth(GLenum function, bool write) {
   glEnable(GL_DEPTH_TEST);
+  depthTested_ = true;
   glDepthFunc(function);
   glDepthMask(write ? GL_TRUE : GL_FALSE);
   depthUsedIn_ = frames_;
 }
 
-void Frame::noDepthTest() { glDisable(GL_DEPTH_TEST); }
+void Frame::noDepthTest() {
+  glDisable(GL_DEPTH_TEST);
+  depthTested_ = false;
+}
 
 bool Frame::anySamplesOf(const std::function<void()>& passes) {
   glBeginQuery(GL_ANY_SAMPLES_PASSED, query_);

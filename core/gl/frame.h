@@ -107,6 +107,8 @@ class Frame {
   Framebuffer framebuffer_, noTargets_;
   VertexArray noVertices_;
   Query query_;
+  int targetCount_ = 0;
+  bool depthTested_ = false;
   std::uint64_t passes_ = 0, frames_ = 0, depthUsedIn_ = 0;
 };
 
