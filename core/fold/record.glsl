@@ -1,5 +1,6 @@
 // Keeps the whole pixel stack, for tests and reports: result words are the fragments delivered by the front and by the back side, then
 // FOLD_RECORD_CAPACITY entries of (id, number of the group on its side, and the top bit where it came from the group's rear end). Front entries come first, back ones run from the end downwards.
+// With FOLD_RECORD_GROUPS a side has enough after so many groups.
 #define FOLD_RECORD_BEHIND 0x80000000u
 
 uint recordCount, recordGroups;
@@ -39,7 +40,11 @@ void foldBehind(uint id) { recordFragment(id, FOLD_RECORD_BEHIND); }
 
 bool foldCloseGroup(uint key) {
   ++recordGroups;
+#ifdef FOLD_RECORD_GROUPS
+  return recordGroups >= uint(FOLD_RECORD_GROUPS);
+#else
   return false;
+#endif
 }
 
 void foldFinish() {

@@ -37,7 +37,7 @@ void layerKeep(uint side, uint key) {
   else layers[pixelIndex()].to = key | LAYER_KEPT;
 }
 
-void layerEnd() { layers[pixelIndex()].from = COPEEL_KEY_DONE; }
+void layerEnd() { layers[pixelIndex()] = LayerRange(COPEEL_KEY_DONE, 0u, COPEEL_KEY_NONE, 0u); }
 
 // Forgets what was found, so that the next layers can be.
 void layerSeek() { layers[pixelIndex()].nearest = COPEEL_KEY_NONE, layers[pixelIndex()].farthest = 0u; }

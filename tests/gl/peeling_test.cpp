@@ -13,6 +13,7 @@ namespace {
 
 using Pixel = std::vector<Group>;
 
+constexpr std::uint32_t kMostFragments = 320;   // in a pixel of any scene here
 constexpr std::uint64_t kPassThatFindsNothing = 1;   // the papers count passes that find fragments
 
 DrawMethod drawOf(std::string_view name) {
@@ -78,7 +79,7 @@ std::vector<std::uint64_t> layerSizes(const Stacks& stacks, bool dual) {
 
 // How often a buffer that starts with a node a pixel has to grow, and to how many nodes.
 std::pair<std::uint64_t, std::uint64_t> growth(const Stacks& stacks, bool dual) {
-  std::uint64_t repeats = 0, nodes = stacks.pixels.size();
+  std::uint64_t repeats = 0, nodes = stacks.fragments() > 0 ? stacks.pixels.size() : 0;
   for (const std::uint64_t size : layerSizes(stacks, dual)) {
     if (size <= nodes) continue;
     nodes = size;
@@ -128,22 +129,23 @@ class Peeled {
  public:
   explicit Peeled(const NamedScene& named)
       : named_(named), planes_(named.scene, 0), renderer_(named.scene, planes_), truth_(draw("ll").stacks) {
-    capacity_ = static_cast<std::uint32_t>(std::max<std::uint64_t>(1, mostOf(truth_, [](const Pixel& p) { return idIterations(p, 1); })));
+    // Few capacities, since each makes shaders of its own.
+    capacity_ = mostOf(truth_, [](const Pixel& p) { return idIterations(p, 1); }) <= 64 ? 64 : kMostFragments;
   }
 
   const Stacks& truth() const { return truth_; }
   std::uint64_t pixels() const { return truth_.pixels.size(); }
   std::uint64_t fragments() const { return truth_.fragments(); }
   gl::Renderer& renderer() { return renderer_; }
-  GlStacks draw(std::string_view name, const MethodOptions& options = {}) {
-    return glStacksOf(renderer_, named_.view, drawOf(name), options, capacity_);
+  GlStacks draw(std::string_view name, const MethodOptions& options = {}, std::uint32_t groups = 0) {
+    return glStacksOf(renderer_, named_.view, drawOf(name), options, capacity_, groups);
   }
 
  private:
   const NamedScene& named_;
   PlaneClasses planes_;
   gl::Renderer renderer_;
-  std::uint32_t capacity_ = 320;   // fragments in a pixel
+  std::uint32_t capacity_ = kMostFragments;   // in a pixel
   Stacks truth_;
 };
 
@@ -211,7 +213,8 @@ TEST_P(Peeling, everyFragmentByLists) {
 
 TEST_P(Peeling, arraysOfK) {
   const Stacks& truth = peeled_.truth();
-  for (const std::uint32_t k : {1u, 2u, 8u, 32u}) {
+  // Many layers take many passes: there one length is enough.
+  for (const std::uint32_t k : depths() < 100 ? std::vector<std::uint32_t>{1, 2, 8, 32} : std::vector<std::uint32_t>{8}) {
     const auto lastK = [&](const Group& group) { return Group(group.end() - std::min<std::ptrdiff_t>(k, std::ssize(group)), group.end()); };
     for (const std::string name : {"f2b-fab", "f2b-kb", "f2b-kb-zf", "dual-fab", "dual-kb"}) {
       SCOPED_TRACE(name + " of " + std::to_string(k));
@@ -224,6 +227,22 @@ TEST_P(Peeling, arraysOfK) {
       }
       expectCost(drawn, 2 * (dual ? (depths() + 1) / 2 : depths()) + kPassThatFindsNothing,
                  (dual ? 2 : 1) * (8 + 4 * (k + counted)) * peeled_.pixels() + 4);
+    }
+  }
+}
+
+// A pixel that has enough after its first groups gets no others, whatever is left in those beside it.
+TEST_P(Peeling, endsWhenThereIsEnough) {
+  for (const std::string name : {"f2b-zf", "f2b-2p", "f2b-3p", "f2b-ll", "f2b-fab", "f2b-kb", "f2b-kb-zf", "dual-2p", "dual-ll", "dual-fab", "dual-kb"}) {
+    SCOPED_TRACE(name);
+    const std::uint32_t enough = 2;
+    const GlStacks drawn = peeled_.draw(name, {.k = kMostFragments}, enough);
+    for (std::size_t i = 0; i < drawn.stacks.pixels.size(); ++i) {
+      const Pixel &all = peeled_.truth().pixels[i], &some = drawn.stacks.pixels[i];
+      const std::size_t wanted = std::min<std::size_t>(enough, all.size());
+      ASSERT_GE(some.size(), wanted);
+      ASSERT_LE(some.size(), name.starts_with("dual") ? 2 * wanted : wanted);
+      ASSERT_TRUE(std::equal(all.begin(), all.begin() + std::ptrdiff_t(wanted), some.begin()));
     }
   }
 }

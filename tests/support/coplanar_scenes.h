@@ -42,14 +42,14 @@ inline Scene voxelCity(int size) {
   return Scene(std::move(objects));
 }
 
-// Sheets one behind another along z, `fold` of them at each depth.
+// Squares one behind another along z, `fold` of them at each depth; one mesh.
 inline Scene sheets(int depths, int fold) {
-  std::vector<Object> objects;
-  const MeshPointer sheet = share(quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}));
+  Mesh all;
   for (int z = 0; z < depths; ++z) {
-    for (int i = 0; i < fold; ++i) objects.push_back({sheet, translation({0, 0, -0.01 * z})});
+    const Mesh sheet = quad({-1, -1, -0.01 * z}, {1, -1, -0.01 * z}, {1, 1, -0.01 * z}, {-1, 1, -0.01 * z});
+    for (int i = 0; i < fold; ++i) all = joined(all, sheet);
   }
-  return Scene(std::move(objects));
+  return Scene({{share(std::move(all)), glm::dmat4(1.0)}});
 }
 
 inline std::vector<NamedScene> coplanarScenes() {
@@ -60,7 +60,7 @@ inline std::vector<NamedScene> coplanarScenes() {
   triangle.vertices = {{-1, -1, 0}, {1, -1, 0.5}, {0, 1, 0}};
   triangle.triangles = {{0, 1, 2}};
   const glm::dmat4 here(1.0);
-  const View view = lookAt({3, 2, 4}, {0, 0, 0}, 64, 48, 0.02), above = lookAt({0.1, 0.2, 5}, {0, 0, 0}, 24, 20, 0.02);
+  const View view = lookAt({3, 2, 4}, {0, 0, 0}, 64, 48, 0.02), above = lookAt({0.1, 0.2, 5}, {0, 0, 0}, 8, 6, 0.06);
   View one = view, wide = view;
   one.width = one.height = 1;
   wide.width = 300, wide.height = 3;

@@ -46,11 +46,13 @@ inline std::vector<Group> groupsOf(const std::uint32_t* entries, std::uint32_t c
   return groups;
 }
 
-// `capacity`: fragments that can be recorded of a pixel; a method that delivers more fails the test.
-inline GlStacks glStacksOf(gl::Renderer& renderer, const View& view, DrawMethod method, const MethodOptions& options, std::uint32_t capacity) {
+// `capacity`: fragments that can be recorded of a pixel; a method that delivers more fails the test. `enough`: groups after which a side wants no others; 0: all.
+inline GlStacks glStacksOf(gl::Renderer& renderer, const View& view, DrawMethod method, const MethodOptions& options, std::uint32_t capacity,
+                           std::uint32_t enough = 0) {
   renderer.setView(view);
   gl::FoldSource fold;
   fold.defines = {{"FOLD", "core/fold/record.glsl"}, {"FOLD_RECORD_CAPACITY", fmt::format("{}", capacity)}};
+  if (enough > 0) fold.defines.emplace_back("FOLD_RECORD_GROUPS", fmt::format("{}", enough));
   fold.stateWords = 2;
   fold.resultWords = 2 + 2 * capacity;
   renderer.setFold(fold);
