@@ -27,10 +27,10 @@ void main() {
 
 #elif defined(PASS_BOX)
 
-flat in uvec2 boxKeys;   // the least and the greatest that the object can have
+uniform uint leastKey, greatestKey;   // that the object can have
 
 void main() {
-  if (!layerAdmits(boxKeys.x, boxKeys.y)) discard;
+  if (!layerAdmits(leastKey, greatestKey)) discard;
 }
 
 #endif

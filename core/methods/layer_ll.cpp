@@ -24,7 +24,7 @@ class Lists {
   Lists(gl::Frame& frame, const Layers& layers, const MethodOptions& options)
       : frame_(frame), gather_(layers.gatherProgram(kFile, "GATHER")), resolve_(layers.resolveProgram(kFile, "RESOLVE")),
         heads_(frame.pixelWords("layerHeads", 1, layers.sides())), counters_(frame.buffer("layerCounters", 3, sizeof(Wanted))) {
-    const std::size_t fixed = frame.pixelCount() * (layers.sides() == 1 ? 12 : 24);
+    const std::size_t fixed = sizeof(Wanted) + frame.pixelCount() * (layers.sides() == 1 ? 12 : 24);
     if (options.memoryBytes) most_ = std::max(options.memoryBytes, fixed + kNodeBytes * 128) - fixed;
     bytes_ = std::min(std::max(frame.keptBytes("layerNodes"), frame.pixelCount() * kNodeBytes), most_);
     heads_.clear(0);

@@ -19,6 +19,7 @@ Layers::Layers(gl::Frame& frame, Ends ends, const MethodOptions& options) : fram
 bool Layers::next() { return next(gatherProgram(kFindFile, "FIND")); }
 
 bool Layers::next(const gl::Program& find) {
+  if (cull_) frame_.cullObjects(resolveProgram(kFindFile, "BOX"));
   if (ends_ == Ends::Front) {
     frame_.clearDepth();
     frame_.testDepth(GL_LESS, true);
@@ -42,7 +43,8 @@ std::uint32_t Layers::fittingLength(const MethodOptions& options, std::size_t ot
   const std::uint32_t most = std::max<std::uint32_t>(options.k, 1);
   if (options.memoryBytes == 0) return most;
   const std::size_t layerWords = ends_ == Ends::Front ? 2 : 4;
-  const std::size_t words = options.memoryBytes / (sizeof(std::uint32_t) * frame_.pixelCount());
+  // One word of it counts the overflow.
+  const std::size_t words = (std::max<std::size_t>(options.memoryBytes, 4) - 4) / (sizeof(std::uint32_t) * frame_.pixelCount());
   const std::size_t spare = words > layerWords ? (words - layerWords) / sides() : 0;
   return static_cast<std::uint32_t>(std::clamp<std::size_t>(spare > otherWords ? spare - otherWords : 0, 1, most));
 }

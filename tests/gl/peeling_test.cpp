@@ -127,8 +127,8 @@ std::size_t wrongSubsets(const Stacks& all, const Stacks& some, std::uint32_t k)
 // A scene with its true stacks.
 class Peeled {
  public:
-  explicit Peeled(const NamedScene& named)
-      : named_(named), planes_(named.scene, 0), renderer_(named.scene, planes_), truth_(draw("ll").stacks) {
+  explicit Peeled(const NamedScene& named, gl::DepthSource source = gl::DepthSource::Planes)
+      : named_(named), planes_(named.scene, 0), renderer_(named.scene, planes_, source), truth_(draw("ll").stacks) {
     // Few capacities, since each makes shaders of its own.
     capacity_ = mostOf(truth_, [](const Pixel& p) { return idIterations(p, 1); }) <= 64 ? 64 : kMostFragments;
   }
@@ -247,11 +247,129 @@ TEST_P(Peeling, endsWhenThereIsEnough) {
   }
 }
 
+// Objects passed over when they are wholly peeled change nothing but what is drawn.
+TEST_P(Peeling, cullingChangesNothing) {
+  for (const std::string name : {"f2b", "f2b-3p", "f2b-fab", "dual", "dual-2p", "dual-kb"}) {
+    SCOPED_TRACE(name);
+    const GlStacks plain = peeled_.draw(name, {.k = 2}), culled = peeled_.draw(name, {.k = 2, .cull = true});
+    EXPECT_EQ(culled.delivered, plain.delivered);
+    EXPECT_EQ(culled.counts.passes, plain.counts.passes);
+    EXPECT_EQ(culled.counts.methodBytes, plain.counts.methodBytes);
+    // Which fragments come first to a buffer that is too short is the device's affair.
+    if (culled.counts.method.overflow == 0) {
+      EXPECT_EQ(differing(plain.stacks, culled.stacks), 0u);
+    }
+    for (std::size_t i = 0; i < culled.counts.objectsDrawn.size(); ++i) EXPECT_LE(culled.counts.objectsDrawn[i], plain.counts.objectsDrawn[i]);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, Peeling, testing::Range<std::size_t>(0, coplanarScenes().size()), [](const auto& scene) {
   std::string name = coplanarScenes()[scene.param].name;
   std::replace(name.begin(), name.end(), ' ', '_');
   return name;
 });
+
+// Three objects of two layers each, one behind another; none lies in a plane of another's, which would let its depths run to the other's.
+std::vector<std::uint32_t> drawnOfThree(const Mesh& mesh, std::string_view method) {
+  const MeshPointer shared = share(mesh);
+  const Scene scene({{shared, translation({0, 0, 4})}, {shared, scaling({0.9, 0.9, 1})}, {shared, translation({0, 0, -4}) * scaling({0.8, 0.8, 1})}});
+  const NamedScene row{"row", scene, lookAt({0, 0, 10}, {0, 0, 0}, 32, 24, 0.1, false)};
+  return Peeled(row).draw(method, {.cull = true}).counts.objectsDrawn;
+}
+
+// A cube is at an end with its second layer; at a sphere's silhouette nothing says so before the next layer is found behind it.
+TEST(PeelingCulls, finishedObjects) {
+  const Mesh cube = box({-1, -1, -1}, {1, 1, 1}), ball = sphere(1, 16, 8);
+  using Drawn = std::vector<std::uint32_t>;
+  EXPECT_EQ(drawnOfThree(cube, "f2b"), (Drawn{3, 3, 2, 2, 1, 1, 0}));
+  EXPECT_EQ(drawnOfThree(ball, "f2b"), (Drawn{3, 3, 3, 2, 2, 1, 1}));
+  // Two passes an iteration, then the one that finds nothing.
+  EXPECT_EQ(drawnOfThree(cube, "f2b-2p"), (Drawn{3, 3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 0}));
+  // From both ends the object in the middle is left, and the room between its layers at last.
+  EXPECT_EQ(drawnOfThree(cube, "dual-fab"), (Drawn{3, 3, 3, 3, 1, 1, 1}));
+  EXPECT_EQ(drawnOfThree(cube, "dual"), (Drawn{3, 3, 3, 1}));
+}
+
+// 2011, Table 1. Coincident copies of a closed mesh, eight layers of it in the deepest pixels.
+struct Row {
+  std::string method;
+  std::uint64_t peeled[4], perMille[4], passes[4];
+  std::uint64_t more;   // passes that find nothing, which the table leaves out
+};
+
+TEST(PeelingTables, vasilakisFudos2011) {
+  const std::size_t copyCounts[4] = {1, 4, 8, 12};
+  const Row rows[] = {{"f2b", {8, 8, 8, 8}, {1000, 250, 125, 83}, {8, 8, 8, 8}, kPassThatFindsNothing},
+                      // Its last pass fetches the last fragment in the paper; here it finds no next layer.
+                      {"f2b-zf", {8, 32, 64, 96}, {1000, 1000, 1000, 1000}, {17, 65, 129, 193}, 0},
+                      {"f2b-kb-zf", {8, 32, 64, 64}, {1000, 1000, 1000, 666}, {16, 16, 16, 16}, kPassThatFindsNothing}};
+  const MeshPointer shells =
+      share(joined(joined(sphere(1, 17, 9), flipped(sphere(0.8, 17, 9))), joined(sphere(0.6, 17, 9), flipped(sphere(0.4, 17, 9)))));
+  for (int i = 0; i < 4; ++i) {
+    const NamedScene scene{"copies", copies(shells, copyCounts[i]), lookAt({3, 2, 4}, {0, 0, 0}, 24, 18, 0.03)};
+    Peeled peeled(scene);
+    for (const Row& row : rows) {
+      SCOPED_TRACE(fmt::format("{} of {}", row.method, copyCounts[i]));
+      const GlStacks drawn = peeled.draw(row.method, {.k = 8});
+      const std::uint64_t most = mostOf(drawn.stacks, [](const Pixel& p) { return idIterations(p, 1); });
+      EXPECT_EQ(most, row.peeled[i]);
+      EXPECT_EQ(1000 * drawn.delivered / peeled.fragments(), row.perMille[i]);
+      EXPECT_EQ(drawn.counts.passes - row.more, row.passes[i]);
+      std::printf("%-10s %2zu copies: %2d fragments, %5.1f %%, %3d passes\n", row.method.c_str(), copyCounts[i], int(most),
+                  100.0 * double(drawn.delivered) / double(peeled.fragments()), int(drawn.counts.passes - row.more));
+    }
+  }
+}
+
+// Buffers that --memory holds short: what was captured and what was not are all.
+TEST(PeelingMemory, isKept) {
+  const NamedScene scene{"copies", copies(share(sphere(1, 13, 7)), 9), lookAt({3, 2, 4}, {0, 0, 0}, 32, 24, 0.03)};
+  Peeled peeled(scene);
+  const std::uint64_t pixels = peeled.pixels();
+  for (const std::string name : {"f2b-ll", "dual-ll", "f2b-fab", "f2b-kb", "dual-fab", "dual-kb"}) {
+    SCOPED_TRACE(name);
+    // Room for a hundred nodes, or arrays of three or four.
+    const std::uint64_t sides = name.starts_with("dual") ? 2 : 1, limit = name.ends_with("ll") ? pixels * 12 * sides + 1032 : pixels * 24 * sides;
+    const GlStacks drawn = peeled.draw(name, {.k = 32, .memoryBytes = limit});
+    EXPECT_LE(drawn.counts.methodBytes, limit);
+    EXPECT_GT(drawn.counts.method.overflow, 0u);
+    EXPECT_GT(drawn.delivered, 0u);
+    EXPECT_EQ(drawn.delivered + drawn.counts.method.overflow, peeled.fragments());
+  }
+}
+
+// The same objects in the opposite order: the same stacks, with the ids that primitives have there.
+TEST(PeelingOrder, ofObjectsDoesNotMatter) {
+  const NamedScene forward = coplanarScenes()[4];
+  const std::vector<Object>& objects = forward.scene.objects();
+  const NamedScene backward{"backward", Scene({objects.rbegin(), objects.rend()}), forward.view};
+  Stacks expected = Peeled(forward).truth();
+  const auto last = static_cast<std::uint32_t>(objects.size() - 1);
+  for (Pixel& pixel : expected.pixels) {
+    for (Group& group : pixel) {
+      for (Crossing& c : group) {
+        const std::uint32_t object = forward.scene.objectOf(c.primitive);
+        c.primitive += backward.scene.firstPrimitive(last - object) - forward.scene.firstPrimitive(object);
+      }
+      std::sort(group.begin(), group.end(), [](const Crossing& a, const Crossing& b) { return a.primitive < b.primitive; });
+    }
+  }
+  Peeled reversed(backward);
+  for (const std::string name : {"f2b-zf", "f2b-2p", "f2b-3p", "f2b-ll", "dual-2p", "dual-ll"}) {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(differing(reversed.draw(name).stacks, expected), 0u);
+  }
+}
+
+// The rasterizer's own depth, as in the papers: other groups, and the same from every robust method.
+TEST(PeelingDepth, ofTheRasterizer) {
+  const NamedScene city = coplanarScenes()[4];
+  Peeled peeled(city, gl::DepthSource::Hardware);
+  for (const std::string name : {"f2b-zf", "f2b-2p", "f2b-3p", "f2b-ll", "dual-2p", "dual-ll"}) {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(differing(peeled.draw(name, {.cull = true}).stacks, peeled.truth()), 0u);
+  }
+}
 
 }  // namespace
 }  // namespace copeel::test
