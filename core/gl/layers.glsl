@@ -10,7 +10,7 @@
 struct LayerRange {
   uint from, to, nearest, farthest;
 };
-layout(std430, binding = COPEEL_BUFFER_METHOD) coherent buffer Layers { LayerRange layers[]; };
+layout(std430, binding = COPEEL_BUFFER_METHOD) buffer Layers { LayerRange layers[]; };
 
 void layerBegin() { layers[pixelIndex()] = LayerRange(0u, COPEEL_KEY_NONE, COPEEL_KEY_NONE, 0u); }
 
