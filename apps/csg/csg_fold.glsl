@@ -1,13 +1,14 @@
 // CSG on the device: the rules of apps/csg/csg_fold.h on the fold interface of core/gl/fold.glsl. Windings per leaf, threshold gates above them, and
 // the surfaces where a result turns from outside to inside. The back side starts behind everything, where all leaves are left, and walks towards the
-// eye: what it finds last is nearest. Result: count of surfaces, then (primitive, part) of up to `surfaceLimit` of them, front to back.
+// eye: what it finds last is nearest. Result: count of surfaces, then (primitive, part, leaf) of up to `surfaceLimit` of them, front to back.
 //
 // The model (written by gl_pass.cpp) is one array of words: the header below, then leaves, uses, gates and outputs.
 layout(std430, binding = COPEEL_BUFFER_FOLD_TABLE) readonly buffer CsgModel {
   uint leafCount, gateCount, outputCount, surfaceLimit;
   uint insideRule;       // 0 non-zero, 1 positive, 2 odd
+  uint firstSection;     // leaves from here on are sections
   uint usesAt, gatesAt, outputsAt;   // offsets into words
-  uint words[];          // from 0: leaves {winding at the eye, index of the first use, opacity}, and one more for the end of the last one's uses
+  uint words[];          // from 0: leaves {winding at the eye, index of the first use, opacities}, and one more for the end of the last one's uses
 } csg;
 struct CsgPrimitive {
   uint planeClass, object;
@@ -16,21 +17,23 @@ layout(std430, binding = COPEEL_BUFFER_PRIMITIVES) readonly buffer CsgPrimitives
 
 #define CSG_NONE 0xFFFFFFFFu
 
-// Opacity of a leaf as part of the solid; overlays are translucent.
+// Opacity of a leaf, two bits each: as part of the solid, of what % marks, of what # marks. An output's third word says which, and in its
+// bit 2 whether it is the opaque share.
 #define CSG_UNSEEN 0u
 #define CSG_TRANSLUCENT 1u
 #define CSG_OPAQUE 2u
 
-// State of a side, in words: header {surfaces, enough, head of the touched leaves, group number}; surfaces (primitive, part); per leaf {winding, change in the
+// State of a side, in words: header {surfaces, enough, head of the touched leaves, group number}; surfaces (primitive, part, leaf); per leaf {winding, change in the
 // open group, next touched leaf, latest front face, latest back face of the group}; per gate {inputs lacking, the same before group `stamp`, stamp}.
 #define CSG_HEADER 4u
+#define CSG_SURFACE 3u
 #define CSG_LEAF 5u
 #define CSG_GATE 3u
 
 uint csgBase, csgSide;
-uint csgLeafAt(uint leaf) { return csgBase + CSG_HEADER + 2u * csg.surfaceLimit + CSG_LEAF * leaf; }
+uint csgLeafAt(uint leaf) { return csgBase + CSG_HEADER + CSG_SURFACE * csg.surfaceLimit + CSG_LEAF * leaf; }
 uint csgGateAt(uint gate) { return csgLeafAt(csg.leafCount) + CSG_GATE * gate; }
-uint csgStateWords() { return CSG_HEADER + 2u * csg.surfaceLimit + CSG_LEAF * csg.leafCount + CSG_GATE * csg.gateCount; }
+uint csgStateWords() { return CSG_HEADER + CSG_SURFACE * csg.surfaceLimit + CSG_LEAF * csg.leafCount + CSG_GATE * csg.gateCount; }
 
 bool csgInside(int winding) {
   return csg.insideRule == 0u ? winding != 0 : csg.insideRule == 1u ? winding > 0 : (winding & 1) != 0;
@@ -141,18 +144,50 @@ uint csgShowingFace(uint top) {
   return (facing != 0u ? facing : max(foldStates[at + 3u], foldStates[at + 4u])) - 1u;
 }
 
+// Behind the open group, which the front side has just entered and the back side just left.
+bool csgBehindTrue(uint gate) { return csgSide == COPEEL_FRONT ? csgIsTrue(gate) : csgWasTrue(gate); }
+bool csgBehindInside(uint leaf) {
+  uint at = csgLeafAt(leaf);
+  return csgInside(int(foldStates[at]) + (csgSide == COPEEL_FRONT ? 0 : int(foldStates[at + 1u])));
+}
+
+// True when the inside of the leaf is there inside the output, and all on the way between them.
+bool csgFills(uint leaf, uint top) {
+  if (!csgBehindInside(leaf)) return false;
+  for (uint use = csg.words[3u * leaf + 1u]; use < csg.words[3u * leaf + 4u]; ++use) {
+    bool value = csg.words[csg.usesAt + 2u * use + 1u] == 0u;
+    for (uint gate = csg.words[csg.usesAt + 2u * use]; gate != CSG_NONE && value && csgBehindTrue(gate); gate = csg.words[csg.gatesAt + 3u * gate]) {
+      if (gate == top) return true;
+      value = csg.words[csg.gatesAt + 3u * gate + 1u] == 0u;
+    }
+  }
+  return false;
+}
+
+// A section's cap is of the last part that it cuts.
+uint csgPartBehindCap(uint section, uint top) {
+  for (uint leaf = csg.firstSection; leaf-- > 0u;) {
+    if (csgFills(leaf, top)) return leaf;
+  }
+  return section;
+}
+
 // Adds a surface; true when nothing behind it matters (which on the back side forgets what lies behind).
 bool csgShow(uint output_) {
   uint record = csg.outputsAt + 3u * output_;
-  uint primitive = csgShowingFace(csg.words[record]), part = csg.words[record + 1u];
+  uint top = csg.words[record], kind = csg.words[record + 2u];
+  uint primitive = csgShowingFace(top);
   uint leaf = csgPrimitives[primitive].object;
-  uint opacity = part == 0u ? csg.words[3u * leaf + 2u] : CSG_TRANSLUCENT;
-  if (opacity == CSG_UNSEEN || (opacity == CSG_TRANSLUCENT && csg.words[record + 2u] != 0u)) return false;
+  if (leaf >= csg.firstSection) leaf = csgPartBehindCap(leaf, top);
+  uint opacity = (csg.words[3u * leaf + 2u] >> (2u * (kind & 3u))) & 3u;
+  if (opacity == CSG_UNSEEN || (opacity == CSG_TRANSLUCENT && (kind & 4u) != 0u)) return false;
   if (csgSide == COPEEL_BACK && opacity == CSG_OPAQUE) foldStates[csgBase] = 0u;
   uint count = foldStates[csgBase]++;
   if (count < csg.surfaceLimit) {
-    foldStates[csgBase + CSG_HEADER + 2u * count] = primitive;
-    foldStates[csgBase + CSG_HEADER + 2u * count + 1u] = part;
+    uint at = csgBase + CSG_HEADER + CSG_SURFACE * count;
+    foldStates[at] = primitive;
+    foldStates[at + 1u] = csg.words[record + 1u];
+    foldStates[at + 2u] = leaf;
   }
   return opacity == CSG_OPAQUE;
 }
@@ -182,22 +217,19 @@ bool foldCloseGroup(uint key) {
   return enough;
 }
 
+void csgResult(uint at, uint place, uint from) {
+  for (uint i = 0u; i < CSG_SURFACE; ++i) foldResults[at + 1u + CSG_SURFACE * place + i] = foldStates[csgBase + CSG_HEADER + CSG_SURFACE * from + i];
+}
+
 // The front side's surfaces, then, unless it ended at an opaque one, the back side's, last found first.
 void foldFinish() {
-  uint at = pixelIndex() * (1u + 2u * csg.surfaceLimit);
+  uint at = pixelIndex() * (1u + CSG_SURFACE * csg.surfaceLimit);
   foldLoad(COPEEL_FRONT);
   uint count = foldStates[csgBase];
   bool ended = foldStates[csgBase + 1u] != 0u;
-  for (uint i = 0u; i < min(count, csg.surfaceLimit); ++i) {
-    foldResults[at + 1u + 2u * i] = foldStates[csgBase + CSG_HEADER + 2u * i];
-    foldResults[at + 2u + 2u * i] = foldStates[csgBase + CSG_HEADER + 2u * i + 1u];
-  }
+  for (uint i = 0u; i < min(count, csg.surfaceLimit); ++i) csgResult(at, i, i);
   foldLoad(COPEEL_BACK);
   uint behind = ended ? 0u : foldStates[csgBase];
-  for (uint i = 0u; i < behind && count + i < csg.surfaceLimit && behind <= csg.surfaceLimit; ++i) {
-    uint from = csgBase + CSG_HEADER + 2u * (behind - 1u - i);
-    foldResults[at + 1u + 2u * (count + i)] = foldStates[from];
-    foldResults[at + 2u + 2u * (count + i)] = foldStates[from + 1u];
-  }
+  for (uint i = 0u; i < behind && count + i < csg.surfaceLimit && behind <= csg.surfaceLimit; ++i) csgResult(at, count + i, behind - 1u - i);
   foldResults[at] = count + behind;
 }

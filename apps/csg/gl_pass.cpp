@@ -12,14 +12,18 @@ namespace {
 
 constexpr std::uint32_t kFirstSurfaceLimit = 4;   // surfaces kept of a pixel; doubled until all fit
 
+constexpr std::size_t kSurfaceWords = 3;          // primitive, part, leaf
+
+std::uint32_t opacityOf(double alpha) { return alpha >= 1 ? 2 : alpha > 0 ? 1 : 0; }
+
 // Words of a side's state: the constants of csg_fold.glsl.
-std::size_t stateWords(std::size_t leaves, std::size_t gates, std::size_t surfaceLimit) { return 4 + 2 * surfaceLimit + 5 * leaves + 3 * gates; }
+std::size_t stateWords(std::size_t leaves, std::size_t gates, std::size_t surfaceLimit) { return 4 + kSurfaceWords * surfaceLimit + 5 * leaves + 3 * gates; }
 
 }  // namespace
 
 struct GlPass::State {
-  State(const Scene& s, const PlaneClasses& planes, const GateForest& f, InsideRule r, const MethodOptions& o)
-      : scene(s), forest(f), rule(r), options(o), renderer(s, planes, o.hardwareDepth ? gl::DepthSource::Hardware : gl::DepthSource::Planes) {
+  State(const Scene& s, const PlaneClasses& planes, const GateForest& f, std::uint32_t b, InsideRule r, const MethodOptions& o)
+      : scene(s), forest(f), backgroundCount(b), rule(r), options(o), renderer(s, planes, o.hardwareDepth ? gl::DepthSource::Hardware : gl::DepthSource::Planes) {
     std::vector<std::uint32_t> all(scene.objects().size());
     std::iota(all.begin(), all.end(), 0u);
     gates.prune(forest, all);
@@ -32,6 +36,7 @@ struct GlPass::State {
 
   const Scene& scene;
   const GateForest& forest;
+  std::uint32_t backgroundCount;
   InsideRule rule;
   MethodOptions options;
   gl::Renderer renderer;
@@ -40,8 +45,9 @@ struct GlPass::State {
   std::uint32_t surfaceLimit = kFirstSurfaceLimit;
 };
 
-GlPass::GlPass(const Scene& scene, const PlaneClasses& planes, const GateForest& forest, InsideRule rule, const MethodOptions& options)
-    : state_(std::make_unique<State>(scene, planes, forest, rule, options)) {}
+GlPass::GlPass(const Scene& scene, const PlaneClasses& planes, const GateForest& forest, std::uint32_t backgroundCount, InsideRule rule,
+               const MethodOptions& options)
+    : state_(std::make_unique<State>(scene, planes, forest, backgroundCount, rule, options)) {}
 
 GlPass::~GlPass() = default;
 
@@ -50,10 +56,10 @@ std::vector<std::uint32_t> GlPass::State::modelWords(const EyeWinding& eye, CsgF
   std::vector<std::uint32_t> leaves, uses, gateWords, outputs;
   for (std::uint32_t leaf = 0; leaf <= leafCount; ++leaf) {
     const bool last = leaf == leafCount;
-    const double opacity = last ? 0 : alpha(context, leaf, 0);
+    const auto opacity = [&](std::uint32_t part) { return last ? 0 : opacityOf(alpha(context, leaf, part)); };
     leaves.push_back(!last && eye.any ? static_cast<std::uint32_t>(eye.constant[leaf]) : 0);
     leaves.push_back(static_cast<std::uint32_t>(uses.size() / 2));
-    leaves.push_back(opacity >= 1 ? 2 : opacity > 0 ? 1 : 0);
+    leaves.push_back(opacity(0) | (leaf < forest.firstSection ? opacity(1) << 2 | opacity(backgroundCount + 1) << 4 : 0));
     if (last) break;
     for (const PrunedForest::Use& use : gates.uses(leaf)) uses.insert(uses.end(), {use.node, use.negated});
   }
@@ -63,12 +69,13 @@ std::vector<std::uint32_t> GlPass::State::modelWords(const EyeWinding& eye, CsgF
     gateWords.insert(gateWords.end(), {node.parent, node.negated, static_cast<std::uint32_t>(node.threshold - node.initial)});
   }
   for (std::size_t i = 0; i < forest.outputs.size(); ++i) {
-    outputs.insert(outputs.end(), {topOfOutput[i], forest.outputs[i].part, forest.outputs[i].opaqueShare});
+    const std::uint32_t part = forest.outputs[i].part, kind = part == 0 ? 0 : part <= backgroundCount ? 1 : 2;
+    outputs.insert(outputs.end(), {topOfOutput[i], part, kind | std::uint32_t{forest.outputs[i].opaqueShare} << 2});
   }
   const auto usesAt = static_cast<std::uint32_t>(leaves.size()), gatesAt = usesAt + static_cast<std::uint32_t>(uses.size());
   const auto outputsAt = gatesAt + static_cast<std::uint32_t>(gateWords.size());
   std::vector<std::uint32_t> words{leafCount, static_cast<std::uint32_t>(gateWords.size() / 3), static_cast<std::uint32_t>(forest.outputs.size()),
-                                   surfaceLimit, static_cast<std::uint32_t>(rule), usesAt, gatesAt, outputsAt};
+                                   surfaceLimit, static_cast<std::uint32_t>(rule), std::min(forest.firstSection, leafCount), usesAt, gatesAt, outputsAt};
   for (const auto* part : {&leaves, &uses, &gateWords, &outputs}) words.insert(words.end(), part->begin(), part->end());
   return words;
 }
@@ -81,7 +88,7 @@ void GlPass::State::setFold(const std::vector<std::uint32_t>& words, const EyeWi
   gl::FoldSource fold;
   fold.defines = {{"FOLD", "apps/csg/csg_fold.glsl"}};
   fold.stateWords = static_cast<std::uint32_t>(stateWords(scene.objects().size(), gates.nodes().size(), surfaceLimit));
-  fold.resultWords = 1 + 2 * surfaceLimit;
+  fold.resultWords = static_cast<std::uint32_t>(1 + kSurfaceWords * surfaceLimit);
   fold.tables = {&model, &fromStack};
   renderer.setFold(fold);
 }
@@ -97,7 +104,7 @@ gl::FrameCounts GlPass::State::drawFrame(const EyeWinding& eye, const MethodInfo
 
 bool GlPass::State::deliver(const View& view, PixelSink& sink) const {
   const std::vector<std::uint32_t> results = renderer.result();
-  const std::size_t words = 1 + 2 * std::size_t{surfaceLimit};
+  const std::size_t words = 1 + kSurfaceWords * surfaceLimit;
   for (std::size_t pixel = 0; pixel * words < results.size(); ++pixel) {
     if (results[pixel * words] > surfaceLimit) return false;
   }
@@ -106,10 +113,10 @@ bool GlPass::State::deliver(const View& view, PixelSink& sink) const {
     const std::uint32_t* record = results.data() + pixel * words;
     surfaces.clear();
     for (std::uint32_t i = 0; i < record[0]; ++i) {
-      const std::uint32_t primitive = record[1 + 2 * i], leaf = scene.objectOf(primitive);
-      const Mesh& mesh = *scene.objects()[leaf].mesh;
-      const std::uint32_t facet = mesh.facetOf(primitive - scene.firstPrimitive(leaf));
-      surfaces.push_back({primitive, renderer.planes().classOf(leaf, facet), leaf, record[2 + 2 * i]});
+      const std::uint32_t* surface = record + 1 + kSurfaceWords * i;
+      const std::uint32_t primitive = surface[0], object = scene.objectOf(primitive);
+      const std::uint32_t facet = scene.objects()[object].mesh->facetOf(primitive - scene.firstPrimitive(object));
+      surfaces.push_back({primitive, renderer.planes().classOf(object, facet), surface[2], surface[1]});
     }
     sink.pixel(static_cast<int>(pixel % static_cast<std::size_t>(view.width)), static_cast<int>(pixel / static_cast<std::size_t>(view.width)), surfaces);
   }

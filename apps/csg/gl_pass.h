@@ -11,8 +11,9 @@ namespace copeel::csg {
 
 class GlPass {
  public:
-  // Throws Error{Machine}: no GL, or not in this build. The arguments live longer.
-  GlPass(const Scene& scene, const PlaneClasses& planes, const GateForest& forest, InsideRule rule, const MethodOptions& options);
+  // `backgroundCount`: parts 1 … are what % marks, later ones what # marks. Throws Error{Machine}: no GL. The arguments live longer.
+  GlPass(const Scene& scene, const PlaneClasses& planes, const GateForest& forest, std::uint32_t backgroundCount, InsideRule rule,
+         const MethodOptions& options);
   ~GlPass();
 
   // `alpha` and `context` as CsgFold's. Throws Error{Machine}: the fold's state needs more memory than there is.

@@ -157,7 +157,7 @@ void Renderer::State::drawPass(const View& view, PixelSink& sink) {
   look->setView(planes, view);
 #if COPEEL_GL
   if (const MethodInfo& method = *findMethod(options.method); method.draw) {
-    if (!glPass) glPass = std::make_unique<GlPass>(scene, planes, forest, options.inside, options.methodOptions);
+    if (!glPass) glPass = std::make_unique<GlPass>(scene, planes, forest, static_cast<std::uint32_t>(model.background.size()), options.inside, options.methodOptions);
     const EyeWinding eye = windingAtEye(view, cpu::project(scene, view).reachesEye);
     return glPass->draw(view, eye, alphaOfLook, look.get(), method, sink, stats);
   }

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "core/cpu/tile.h"
@@ -82,6 +83,8 @@ class OverFold {
 
   bool beginTile(cpu::Tile& tile);
   double narrowTile(cpu::Tile& tile);
+  bool mayShow(std::span<const cpu::DepthRange>) const { return true; }
+  cpu::DepthRange window(const PixelStack&) const { return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}; }
   bool needsWholeStack() const { return false; }
   // Without an opaque face the fold never has enough, and layers are counted to the last.
   double leastFragments() const { return mayEnd_ ? 1 : std::numeric_limits<double>::infinity(); }

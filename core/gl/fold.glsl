@@ -9,9 +9,6 @@
 //   void foldFinish()                 joins both sides and writes the pixel's result
 //
 // A front side may be given all its groups in one invocation (A-buffers) or over many passes. A group is never split between the sides.
-#define COPEEL_FRONT 0u
-#define COPEEL_BACK 1u
-
 layout(std430, binding = COPEEL_BUFFER_FOLD_STATE) buffer FoldStates { uint foldStates[]; };
 layout(std430, binding = COPEEL_BUFFER_FOLD_RESULT) writeonly buffer FoldResults { uint foldResults[]; };
 

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/gl/context.h"
+#include "core/gl/depth_keys.h"
 #include "core/gl/layout.h"
 
 namespace copeel::gl {
@@ -35,34 +36,6 @@ struct PlaneRecord {
   float lo, hi;
 };
 static_assert(sizeof(PlaneRecord) == 32);
-
-// How order values become keys (fragment.glsl).
-struct DepthScale {
-  double origin = 0;
-  std::uint64_t nearest = 0;
-  int shift = 31, sign = 1;
-};
-
-DepthScale depthScale(const std::vector<DepthPlane>& depths, bool perspective) {
-  double least = HUGE_VAL, most = -HUGE_VAL;
-  for (const DepthPlane& plane : depths) {
-    least = std::min(least, double(plane.lo));
-    most = std::max(most, double(plane.hi));
-  }
-  DepthScale scale;
-  scale.sign = perspective ? -1 : 1;
-  if (!(least <= most)) return scale;
-  double low = perspective ? -most : least, high = perspective ? -least : most;
-  // Less than one octave holds the values (2.25 to 1.25 of their extent), or as many as they need: from there on keys are relative.
-  const double extent = std::max(high - low, std::max(std::abs(low), std::abs(high)) * 0x1p-40);
-  scale.origin = perspective && low < 1.25 * extent ? 0 : low - 1.25 * extent;
-  low -= scale.origin, high -= scale.origin;
-  const std::uint64_t lowBits = std::bit_cast<std::uint64_t>(low), highBits = std::bit_cast<std::uint64_t>(high);
-  scale.nearest = perspective ? highBits : lowBits;
-  scale.shift = 1;
-  while (((highBits - lowBits) >> scale.shift) >= COPEEL_KEY_NONE - COPEEL_KEY_LEAST) ++scale.shift;
-  return scale;
-}
 
 // The distances that the projection's depth runs between: the scene's, or the near distance where it is nearer.
 std::pair<double, double> depthRange(const Scene& scene, const View& view) {
@@ -112,6 +85,8 @@ Frame::Frame(const SceneBuffers& scene, Programs& programs, DepthSource depthSou
 
 void Frame::setView(const View& view, const std::vector<DepthPlane>& depths) {
   view_ = view;
+  depths_ = depths;
+  culling_.reset();
   if (width_ != view.width || height_ != view.height) {
     width_ = view.width, height_ = view.height;
     makeTargets();
@@ -240,6 +215,9 @@ void Frame::target(const std::string& name, int attachment, GLenum format) {
     glCreateTextures(GL_TEXTURE_2D, 1, &texture);
     target.texture = Texture(texture);
     glTextureStorage2D(texture, 1, format, width_, height_);
+    // An integer texture that would be filtered reads as 0.
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     target.format = format;
   }
   target.usedIn = frames_;
@@ -252,6 +230,7 @@ void Frame::writeTargets(int count) {
   for (int i = 0; i < count; ++i) attachments[i] = static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + i);
   if (count > 0) glNamedFramebufferDrawBuffers(framebuffer_, count, attachments);
   else glNamedFramebufferDrawBuffer(framebuffer_, GL_NONE);
+  targetCount_ = count;
 }
 
 void Frame::clearTarget(int attachment, GLuint word) {
@@ -263,7 +242,8 @@ void Frame::clearTarget(int attachment, const glm::vec4& value) { glClearNamedFr
 
 void Frame::begin() {
   ++frames_;
-  passes_ = 0;
+  objectsDrawn_.clear();
+  culls_ = false;
   writeTargets(0);
   glViewport(0, 0, width_, height_);
   glDisable(GL_CULL_FACE);
@@ -287,10 +267,21 @@ void Frame::finish() {
 }
 
 void Frame::drawObjects(const Program& program, std::uint32_t begin, std::uint32_t end) {
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+  // A pass without targets and depth test may read them all.
+  glBindFramebuffer(GL_FRAMEBUFFER, targetCount_ > 0 || depthTested_ ? framebuffer_ : noTargets_);
   glUseProgram(program.name());
-  scene_.draw(clip_, begin, end);
+  std::uint32_t count = end - begin;
+  if (culls_) count = culling_->draw(begin, end, [&](std::uint32_t first, std::uint32_t last) { scene_.draw(clip_, first, last); });
+  else scene_.draw(clip_, begin, end);
+  if (!objectsDrawn_.empty()) objectsDrawn_.back() += count;
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void Frame::cullObjects(const Program& box) {
+  if (!culling_) culling_ = std::make_unique<Culling>(objectBoxes(scene_.scene(), scene_.planes(), view_, depths_, depthSource_ == DepthSource::Hardware));
+  if (!culls_) culling_->restart();
+  culls_ = true;
+  culling_->ask(box, [&] { drawPixels(box); });
 }
 
 void Frame::drawPixels(const Program& program) {
@@ -309,12 +300,16 @@ void Frame::clearDepth() {
 
 void Frame::testDepth(GLenum function, bool write) {
   glEnable(GL_DEPTH_TEST);
+  depthTested_ = true;
   glDepthFunc(function);
   glDepthMask(write ? GL_TRUE : GL_FALSE);
   depthUsedIn_ = frames_;
 }
 
-void Frame::noDepthTest() { glDisable(GL_DEPTH_TEST); }
+void Frame::noDepthTest() {
+  glDisable(GL_DEPTH_TEST);
+  depthTested_ = false;
+}
 
 bool Frame::anySamplesOf(const std::function<void()>& passes) {
   glBeginQuery(GL_ANY_SAMPLES_PASSED, query_);

@@ -4,11 +4,13 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 
 #include <glm/vec4.hpp>
 
 #include "core/coplanarity/depth_planes.h"
+#include "core/gl/culling.h"
 #include "core/gl/program.h"
 #include "core/gl/scene.h"
 
@@ -60,10 +62,14 @@ class Frame {
   void clearTarget(int attachment, const glm::vec4& value);
 
   // All objects, or some; a pass over the geometry is counted once for each call of beginPass().
-  void beginPass() { ++passes_; }
+  void beginPass() { objectsDrawn_.push_back(0); }
   void drawGeometry(const Program& program) { beginPass(); drawObjects(program, 0, static_cast<std::uint32_t>(scene_.scene().objects().size())); }
   void drawObjects(const Program& program, std::uint32_t begin, std::uint32_t end);
   void drawPixels(const Program& program);
+
+  // From now on, until the frame's end, passes leave out objects whose boxes (culling.h) pass no sample of `box`, a pixel program; again when
+  // pixels have less left.
+  void cullObjects(const Program& box);
 
   // Hardware depth test of keys: off, or writing, or comparing only. The buffer starts as COPEEL_KEY_NONE; pixel passes read it as texture 8.
   void clearDepth();
@@ -75,7 +81,8 @@ class Frame {
 
   // Results, after a method has drawn.
   std::vector<std::uint32_t> result() const;          // resultWords per pixel, row by row from the upper left
-  std::uint64_t passes() const { return passes_; }
+  std::uint64_t passes() const { return objectsDrawn_.size(); }
+  const std::vector<std::uint32_t>& objectsDrawn() const { return objectsDrawn_; }   // in each pass
   std::uint64_t methodBytes() const;   // of the buffers, targets and depth asked for since begin()
   std::uint64_t foldBytes() const { return states_.bytes() + results_.bytes(); }
 
@@ -91,6 +98,7 @@ class Frame {
   Programs& programs_;
   DepthSource depthSource_;
   View view_;
+  std::vector<DepthPlane> depths_;
   FoldSource fold_;
   int width_ = 0, height_ = 0;
   Buffer clip_, frameBlock_, planes_, states_, results_;
@@ -110,7 +118,12 @@ class Frame {
   Framebuffer framebuffer_, noTargets_;
   VertexArray noVertices_;
   Query query_;
-  std::uint64_t passes_ = 0, frames_ = 0, depthUsedIn_ = 0;
+  int targetCount_ = 0;
+  bool depthTested_ = false;
+  std::unique_ptr<Culling> culling_;   // of this view, once it was asked for
+  bool culls_ = false;
+  std::vector<std::uint32_t> objectsDrawn_;
+  std::uint64_t frames_ = 0, depthUsedIn_ = 0;
 };
 
 }  // namespace copeel::gl

@@ -15,6 +15,10 @@
 #define COPEEL_ID_PRIMITIVE 0x7FFFFFFFu
 #define COPEEL_ID_NONE 0xFFFFFFFFu
 
+// The sides a pixel's groups are delivered from.
+#define COPEEL_FRONT 0u
+#define COPEEL_BACK 1u
+
 // Vertex attributes.
 #define COPEEL_ATTRIBUTE_CLIP 0
 #define COPEEL_ATTRIBUTE_FIRST_PRIMITIVE 1

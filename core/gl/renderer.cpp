@@ -14,6 +14,7 @@ FrameCounts Renderer::draw(DrawMethod method, const MethodOptions& options, cons
   counts.method = method(frame_, options);
   frame_.finish();
   counts.passes = frame_.passes();
+  counts.objectsDrawn = frame_.objectsDrawn();
   counts.methodBytes = frame_.methodBytes();
   counts.foldBytes = frame_.foldBytes();
   return counts;

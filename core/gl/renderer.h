@@ -15,6 +15,7 @@ namespace copeel::gl {
 struct FrameCounts {
   MethodCounts method;
   std::uint64_t passes = 0;         // over the geometry
+  std::vector<std::uint32_t> objectsDrawn;   // in each pass
   std::uint64_t methodBytes = 0;    // of the method's buffers on the device
   std::uint64_t foldBytes = 0;      // of the fold's states and results
 };

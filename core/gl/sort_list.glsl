@@ -1,9 +1,13 @@
 // Sorts a linked list of fragments where it lies, and delivers it: for the methods that gather into lists. The file that includes this defines LIST_NODES,
-// an array of records {next, key, id}; links are index + 1, 0 ends a list.
+// an array of records {next, key, id}; links are index + 1, 0 ends a list. Where the whole list has one key, LIST_KEY(node) says which.
 //
 // Bottom-up merge sort: n log n, no memory but the links. Order: key, then the later primitive first (as the fold wants groups).
+#ifndef LIST_KEY
+#define LIST_KEY(node) LIST_NODES[(node) - 1u].key
+#endif
+
 bool listBefore(uint a, uint b) {
-  uint keyA = LIST_NODES[a - 1u].key, keyB = LIST_NODES[b - 1u].key;
+  uint keyA = LIST_KEY(a), keyB = LIST_KEY(b);
   if (keyA != keyB) return keyA < keyB;
   return (LIST_NODES[a - 1u].id & COPEEL_ID_PRIMITIVE) > (LIST_NODES[b - 1u].id & COPEEL_ID_PRIMITIVE);
 }
@@ -33,10 +37,12 @@ uint sortList(uint head) {
   }
 }
 
-void deliverList(uint head) {
+// True: the pixel has enough.
+bool deliverList(uint head) {
   for (uint node = head; node != 0u;) {
-    uint key = LIST_NODES[node - 1u].key;
-    for (; node != 0u && LIST_NODES[node - 1u].key == key; node = LIST_NODES[node - 1u].next) foldFront(LIST_NODES[node - 1u].id);
-    if (foldCloseGroup(key)) return;
+    uint key = LIST_KEY(node);
+    for (; node != 0u && LIST_KEY(node) == key; node = LIST_NODES[node - 1u].next) foldFront(LIST_NODES[node - 1u].id);
+    if (foldCloseGroup(key)) return true;
   }
+  return false;
 }

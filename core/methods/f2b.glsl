@@ -5,8 +5,7 @@
 #include "core/gl/frame.glsl"
 #include "core/gl/fold.glsl"
 #endif
-
-layout(std430, binding = COPEEL_BUFFER_METHOD) buffer Peeled { uint peeled[]; };   // key of the last layer
+#include "core/gl/layers.glsl"
 
 #if defined(PASS_PEEL)
 
@@ -15,7 +14,7 @@ layout(location = 0) out uint id;
 // The nearest fragment behind the last layer; of several at one depth the first to arrive stays, as the depth test decides.
 void main() {
   uint key = fragmentKey();
-  if (key <= peeled[pixelIndex()]) discard;
+  if (!layerAdmits(key, key)) discard;
   gl_FragDepth = uintBitsToFloat(key);
   id = fragmentId();
 }
@@ -23,16 +22,18 @@ void main() {
 #elif defined(PASS_RESOLVE)
 
 layout(binding = 0) uniform usampler2D ids;
-layout(binding = 8) uniform sampler2D depths;
 
 void main() {
-  uint key = floatBitsToUint(texelFetch(depths, ivec2(gl_FragCoord.xy), 0).r);
-  if (key == COPEEL_KEY_NONE) return;
-  foldLoad(COPEEL_FRONT);
-  foldFront(texelFetch(ids, ivec2(gl_FragCoord.xy), 0).r);
-  bool enough = foldCloseGroup(key);
-  foldStore(COPEEL_FRONT);
-  peeled[pixelIndex()] = enough ? COPEEL_KEY_DONE : key;
+  uint key = layerKey(COPEEL_FRONT);
+  bool enough = key == COPEEL_KEY_NONE;
+  if (!enough) {
+    foldLoad(COPEEL_FRONT);
+    foldFront(texelFetch(ids, ivec2(gl_FragCoord.xy), 0).r);
+    enough = foldCloseGroup(key);
+    foldStore(COPEEL_FRONT);
+  }
+  if (enough) layerEnd();
+  else layerClose(COPEEL_FRONT, key);
 }
 
 #endif

@@ -6,6 +6,19 @@
 namespace copeel {
 
 MethodCounts drawF2b(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawF2b2(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawF2bZf(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawF2bKbZf(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawF2b2p(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawF2b3p(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawF2bLl(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawF2bFab(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawF2bKb(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawDual(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawDual2p(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawDualLl(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawDualFab(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawDualKb(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawLl(gl::Frame& frame, const MethodOptions& options);
 
 }  // namespace copeel

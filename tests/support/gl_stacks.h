@@ -16,24 +16,43 @@ struct GlStacks {
   std::uint64_t delivered = 0;
 };
 
+constexpr std::uint32_t kBehind = 0x80000000;   // of core/fold/record.glsl
+
+// A group is delivered inwards from its ends: ids descend from the front and ascend from the rear, and no front one lies behind one from the rear.
+struct GroupEnds {
+  std::uint32_t lastFront = ~std::uint32_t{0}, lastBehind = 0;
+  bool anyBehind = false;
+  void take(std::uint32_t primitive, bool behind) {
+    COPEEL_CHECK(behind ? !anyBehind || primitive > lastBehind : primitive < lastFront, "primitive {} out of order", primitive);
+    (behind ? lastBehind : lastFront) = primitive;
+    anyBehind |= behind;
+    COPEEL_CHECK(!anyBehind || lastBehind < lastFront, "primitive {} met from both ends", primitive);
+  }
+};
+
 // Groups of one side, in the order they were delivered; within a group by primitive.
 inline std::vector<Group> groupsOf(const std::uint32_t* entries, std::uint32_t count, int step) {
   std::vector<Group> groups;
   std::uint32_t open = ~std::uint32_t{0};
+  GroupEnds ends;
   for (std::uint32_t i = 0; i < count; ++i, entries += step * 2) {
-    if (groups.empty() || entries[1] != open) groups.emplace_back();
-    open = entries[1];
-    groups.back().push_back({entries[0] & COPEEL_ID_PRIMITIVE, entries[0] & COPEEL_ID_BACK ? -1 : 1});
+    const std::uint32_t group = entries[1] & ~kBehind, primitive = entries[0] & COPEEL_ID_PRIMITIVE;
+    if (groups.empty() || group != open) groups.emplace_back(), ends = {};
+    open = group;
+    ends.take(primitive, entries[1] & kBehind);
+    groups.back().push_back({primitive, entries[0] & COPEEL_ID_BACK ? -1 : 1});
   }
   for (Group& group : groups) std::sort(group.begin(), group.end(), [](const Crossing& a, const Crossing& b) { return a.primitive < b.primitive; });
   return groups;
 }
 
-// `capacity`: fragments that can be recorded of a pixel; a method that delivers more fails the test.
-inline GlStacks glStacksOf(gl::Renderer& renderer, const View& view, DrawMethod method, const MethodOptions& options, std::uint32_t capacity) {
+// `capacity`: fragments that can be recorded of a pixel; a method that delivers more fails the test. `enough`: groups after which a side wants no others; 0: all.
+inline GlStacks glStacksOf(gl::Renderer& renderer, const View& view, DrawMethod method, const MethodOptions& options, std::uint32_t capacity,
+                           std::uint32_t enough = 0) {
   renderer.setView(view);
   gl::FoldSource fold;
   fold.defines = {{"FOLD", "core/fold/record.glsl"}, {"FOLD_RECORD_CAPACITY", fmt::format("{}", capacity)}};
+  if (enough > 0) fold.defines.emplace_back("FOLD_RECORD_GROUPS", fmt::format("{}", enough));
   fold.stateWords = 2;
   fold.resultWords = 2 + 2 * capacity;
   renderer.setFold(fold);
