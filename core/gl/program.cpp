@@ -33,6 +33,10 @@ void appendFile(const std::string& path, const Defines& defines, std::vector<std
       source += row;
       continue;
     }
+    if (row.starts_with("#include <")) {   // C++'s part of a file that both read
+      source += '\n';
+      continue;
+    }
     appendFile(includedFile(row, defines), defines, files, source);
     source += fmt::format("#line {} {}\n", line + 1, number);
   }
