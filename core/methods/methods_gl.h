@@ -6,6 +6,7 @@
 namespace copeel {
 
 MethodCounts drawF2b(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawFab(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawLl(gl::Frame& frame, const MethodOptions& options);
 
 }  // namespace copeel
