@@ -8,5 +8,6 @@ namespace copeel {
 MethodCounts drawF2b(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawFab(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawLl(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawSb(gl::Frame& frame, const MethodOptions& options);
 
 }  // namespace copeel
