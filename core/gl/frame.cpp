@@ -26,7 +26,8 @@ struct FrameBlock {
   glm::dvec2 center;
   double depthOrigin;
   std::uint32_t depthNearest[2];
-  std::int32_t depthShift, depthSign, size[2], depthHardware, padding[3];
+  std::int32_t depthShift, depthSign, size[2], depthHardware;
+  std::uint32_t depthKeys, padding[2];
 };
 static_assert(sizeof(FrameBlock) == 64);
 
@@ -41,6 +42,7 @@ struct DepthScale {
   double origin = 0;
   std::uint64_t nearest = 0;
   int shift = 31, sign = 1;
+  std::uint32_t keys = 1;         // that are in use
 };
 
 DepthScale depthScale(const std::vector<DepthPlane>& depths, bool perspective) {
@@ -61,6 +63,7 @@ DepthScale depthScale(const std::vector<DepthPlane>& depths, bool perspective) {
   scale.nearest = perspective ? highBits : lowBits;
   scale.shift = 1;
   while (((highBits - lowBits) >> scale.shift) >= COPEEL_KEY_NONE - COPEEL_KEY_LEAST) ++scale.shift;
+  scale.keys = static_cast<std::uint32_t>((highBits - lowBits) >> scale.shift) + 1;
   return scale;
 }
 
@@ -171,6 +174,7 @@ void Frame::writeFrameBlock(const std::vector<DepthPlane>& depths) {
   block.depthShift = scale.shift;
   block.depthSign = scale.sign;
   block.size[0] = width_, block.size[1] = height_;
+  block.depthKeys = scale.keys;
   block.depthHardware = depthSource_ == DepthSource::Hardware;
   frameBlock_.write(&block, sizeof block);
 

@@ -15,6 +15,8 @@ bool arrayBefore(uvec2 a, uvec2 b) {
 
 #if defined(PASS_RESOLVE)
 
+uint sortedKeys[ARRAY_SHORT], sortedIds[ARRAY_SHORT];
+
 // Delivers, or puts off what is too long.
 void deliverArray(uint first, uint count) {
   if (count > uint(ARRAY_SHORT)) {
@@ -22,20 +24,26 @@ void deliverArray(uint first, uint count) {
     return;
   }
   // Later primitives come last and lie in front of their coplanar ones, so the array is read from its end.
-  uvec2 sorted[ARRAY_SHORT];
-  for (uint i = 0u; i < count; ++i) sorted[i] = ARRAY[first + count - 1u - i];
+  for (uint i = 0u; i < count; ++i) {
+    uvec2 fragment = ARRAY[first + count - 1u - i];
+    sortedKeys[i] = fragment.x, sortedIds[i] = fragment.y;
+  }
   for (uint gap = count > 80u ? 40u : count > 26u ? 13u : count > 8u ? 4u : 1u; gap > 0u; gap /= 3u) {
     for (uint i = gap; i < count; ++i) {
-      uvec2 moving = sorted[i];
-      uint at = i;
-      for (; at >= gap && arrayBefore(moving, sorted[at - gap]); at -= gap) sorted[at] = sorted[at - gap];
-      sorted[at] = moving;
+      uint key = sortedKeys[i], id = sortedIds[i], at = i;
+      while (at >= gap) {
+        uint otherKey = sortedKeys[at - gap], otherId = sortedIds[at - gap];
+        if (!arrayBefore(uvec2(key, id), uvec2(otherKey, otherId))) break;
+        sortedKeys[at] = otherKey, sortedIds[at] = otherId;
+        at -= gap;
+      }
+      sortedKeys[at] = key, sortedIds[at] = id;
     }
   }
   foldLoad(COPEEL_FRONT);
   for (uint i = 0u; i < count;) {
-    uint key = sorted[i].x;
-    for (; i < count && sorted[i].x == key; ++i) foldFront(sorted[i].y);
+    uint key = sortedKeys[i];
+    for (; i < count && sortedKeys[i] == key; ++i) foldFront(sortedIds[i]);
     if (foldCloseGroup(key)) break;
   }
   foldStore(COPEEL_FRONT);

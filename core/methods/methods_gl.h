@@ -9,5 +9,7 @@ MethodCounts drawF2b(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawFab(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawLl(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawSb(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawKb(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawKPlus(gl::Frame& frame, const MethodOptions& options);
 
 }  // namespace copeel
