@@ -25,9 +25,7 @@ void deliverNearest() {
 
 #else
 
-bool keptBefore(uvec2 a, uvec2 b) {
-  return a.x < b.x || (a.x == b.x && (a.y & COPEEL_ID_PRIMITIVE) > (b.y & COPEEL_ID_PRIMITIVE));
-}
+#include "core/gl/sort_short.glsl"
 
 // Of a buffer whose place 0 is free for `moving`: moves the farthest there.
 void settle(uint first, uint at, uvec2 moving) {
@@ -36,9 +34,9 @@ void settle(uint first, uint at, uvec2 moving) {
     uvec2 farthest = fragments[first + child];
     if (child + 1u < uint(K)) {
       uvec2 other = fragments[first + child + 1u];
-      if (keptBefore(farthest, other)) farthest = other, ++child;
+      if (fragmentBefore(farthest, other)) farthest = other, ++child;
     }
-    if (!keptBefore(moving, farthest)) break;
+    if (!fragmentBefore(moving, farthest)) break;
     fragments[first + at] = farthest;
     at = child;
   }
@@ -48,7 +46,7 @@ void settle(uint first, uint at, uvec2 moving) {
   uvec2 farthest = moving;
   for (uint i = 1u; i < uint(K); ++i) {
     uvec2 other = fragments[first + i];
-    if (keptBefore(farthest, other)) farthest = other, place = i;
+    if (fragmentBefore(farthest, other)) farthest = other, place = i;
   }
   if (place > 0u) fragments[first + place] = moving;
   fragments[first] = farthest;
@@ -69,7 +67,7 @@ uint keepNearest(uint first, uint count, uvec2 fragment) {
 #else
     settle(first, 0u, fragments[first]);
 #endif
-  } else if (keptBefore(fragment, fragments[first])) {
+  } else if (fragmentBefore(fragment, fragments[first])) {
     settle(first, 0u, fragment);
   }
   return uint(K);

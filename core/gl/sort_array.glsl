@@ -1,25 +1,20 @@
 // Sorts the contiguous fragments of a pixel and delivers them: for the methods that gather into arrays. The file that includes this defines ARRAY, an
 // array of records uvec2 {key, id}, and calls deliverArray() in the passes RESOLVE, HEAP and POP that deliverArrays() draws (core/methods/arrays.h).
 //
-// Up to ARRAY_SHORT fragments are sorted in registers (Shell's sort: short code, and with one gap an insertion sort). Longer arrays become heaps where they
-// lie, in rounds of ARRAY_ROUND steps: drivers end shaders that loop for too long (llvmpipe silently, after 65,536 turns of all loops together), so that no
-// pixel may ask for more in one pass. A step is a sift of at most 31 turns, which leaves half of the turns to the fold.
-#define ARRAY_SHORT 128
+// Short arrays are sorted in registers. Longer ones become heaps where they lie, in rounds of ARRAY_ROUND steps: drivers end shaders that loop for too long
+// (llvmpipe silently, after 65,536 turns of all loops together), so no pixel may ask for more in one pass. A step is a sift of at most 31 turns, which
+// leaves half of the turns to the fold.
+#include "core/gl/sort_short.glsl"
+
 #define ARRAY_ROUND 1024u
 
 layout(std430, binding = COPEEL_BUFFER_METHOD + 7) coherent buffer Longest { uint longest; };   // array that was put off
 
-bool arrayBefore(uvec2 a, uvec2 b) {
-  return a.x < b.x || (a.x == b.x && (a.y & COPEEL_ID_PRIMITIVE) > (b.y & COPEEL_ID_PRIMITIVE));
-}
-
 #if defined(PASS_RESOLVE)
-
-uint sortedKeys[ARRAY_SHORT], sortedIds[ARRAY_SHORT];
 
 // Delivers, or puts off what is too long.
 void deliverArray(uint first, uint count) {
-  if (count > uint(ARRAY_SHORT)) {
+  if (count > uint(SORT_SHORT)) {
     atomicMax(longest, count);
     return;
   }
@@ -28,24 +23,9 @@ void deliverArray(uint first, uint count) {
     uvec2 fragment = ARRAY[first + count - 1u - i];
     sortedKeys[i] = fragment.x, sortedIds[i] = fragment.y;
   }
-  for (uint gap = count > 80u ? 40u : count > 26u ? 13u : count > 8u ? 4u : 1u; gap > 0u; gap /= 3u) {
-    for (uint i = gap; i < count; ++i) {
-      uint key = sortedKeys[i], id = sortedIds[i], at = i;
-      while (at >= gap) {
-        uint otherKey = sortedKeys[at - gap], otherId = sortedIds[at - gap];
-        if (!arrayBefore(uvec2(key, id), uvec2(otherKey, otherId))) break;
-        sortedKeys[at] = otherKey, sortedIds[at] = otherId;
-        at -= gap;
-      }
-      sortedKeys[at] = key, sortedIds[at] = id;
-    }
-  }
+  sortShort(count);
   foldLoad(COPEEL_FRONT);
-  for (uint i = 0u; i < count;) {
-    uint key = sortedKeys[i];
-    for (; i < count && sortedKeys[i] == key; ++i) foldFront(sortedIds[i]);
-    if (foldCloseGroup(key)) break;
-  }
+  deliverShort(count);
   foldStore(COPEEL_FRONT);
 }
 
@@ -59,9 +39,9 @@ void siftDown(uint first, uint size, uint at, uvec2 moving) {
     uvec2 nearest = ARRAY[first + child];
     if (child + 1u < size) {
       uvec2 other = ARRAY[first + child + 1u];
-      if (arrayBefore(other, nearest)) nearest = other, ++child;
+      if (fragmentBefore(other, nearest)) nearest = other, ++child;
     }
-    if (!arrayBefore(nearest, moving)) break;
+    if (!fragmentBefore(nearest, moving)) break;
     ARRAY[first + at] = nearest;
     at = child;
   }
@@ -72,7 +52,7 @@ void siftDown(uint first, uint size, uint at, uvec2 moving) {
 
 // Round r makes heaps of the subtrees at nodes count/2 - 1 - r · ARRAY_ROUND and before.
 void deliverArray(uint first, uint count) {
-  if (count <= uint(ARRAY_SHORT)) return;
+  if (count <= uint(SORT_SHORT)) return;
   uint done = arrayRound * ARRAY_ROUND, inner = count / 2u;
   for (uint step = 0u; step < ARRAY_ROUND && done + step < inner; ++step) {
     uint node = inner - 1u - done - step;
@@ -86,7 +66,7 @@ void deliverArray(uint first, uint count) {
 // that the round before left open goes on. A pixel that has enough is marked by a last popped key of COPEEL_KEY_DONE.
 void deliverArray(uint first, uint count) {
   uint size = count - min(count, arrayRound * ARRAY_ROUND);
-  if (count <= uint(ARRAY_SHORT) || size == 0u) return;
+  if (count <= uint(SORT_SHORT) || size == 0u) return;
   uint key = size < count ? ARRAY[first + size].x : COPEEL_KEY_NONE;
   uint end = size - min(size, ARRAY_ROUND);
   bool enough = key == COPEEL_KEY_DONE;

@@ -11,5 +11,6 @@ MethodCounts drawLl(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawSb(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawKb(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawKPlus(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawBunLl(gl::Frame& frame, const MethodOptions& options);
 
 }  // namespace copeel

@@ -15,10 +15,12 @@ const std::vector<MethodInfo>& methods() {
 #if COPEEL_GL
       {"f2b", "front-to-back depth peeling", "Everitt 2001", "gl", "D + 1", "12 a pixel", "D / N", false, drawF2b},
       {"fab", "A-buffer in fixed-size arrays", "Liu 2010 (FreePipe), Crassin 2010", "gl", "1, 2 where it grows", "4 + 8 max(K, N) a pixel", "1", true, drawFab},
-      {"ll", "A-buffer in per-pixel linked lists", "Yang 2010", "gl", "1, 2 where it grows", "4 a pixel + 12 a fragment", "1", true, drawLl},
+      {"ll", "A-buffer in per-pixel linked lists", "Yang 2010", "gl", "1, 2 where it grows", "4 a pixel + 12 max(4 pixels, N) + 68", "1", true, drawLl},
       {"sb", "S-buffer: count, prefix sum, fill", "Vasilakis, Fudos 2012", "gl", "2", "8 a pixel + 8 a fragment + 260", "1", true, drawSb},
       {"kb", "k-buffer", "Bavoil 2007", "gl", "1", "8 K + 8 a pixel", "min(K, N) / N at best", false, drawKb},
       {"k-plus", "k+-buffer: spin lock or interlock, the K nearest", "Vasilakis, Fudos 2014", "gl", "1", "8 K + 8 a pixel", "min(K, N) / N", false, drawKPlus},
+      {"bun-ll", "bucket peeling with linked lists", "Vasilakis, Fudos 2013, 3.1.4", "gl", "1, 2 where it grows",
+       "20 a pixel + 60 times the fullest bucket + 324", "1", true, drawBunLl},
 #endif
   };
   return all;
