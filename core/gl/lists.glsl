@@ -1,9 +1,10 @@
 // Linked lists of fragments, LISTS of them a pixel one behind the other, each with a node memory of its own: gathered by gatherIntoList(), resolved by the
 // passes that drawLists() draws (core/methods/lists.h).
 //
-// Lists of few fragments are sorted in registers. Pixels with a longer one wait for passes that each merge one level, as drivers end shaders that loop for
+// Pixels of few fragments are sorted in registers. The others wait for passes that each merge one level, as drivers end shaders that loop for
 // too long (sort_array.glsl); a level of LIST_MOST nodes takes 3 turns a node.
 #define LIST_MOST 20000u
+#define LIST_DONE 0xFFFFFFFFu    // the head of a pixel that was delivered
 
 struct Node {
   uint next, key, id;
@@ -39,45 +40,27 @@ uint lengthOf(uint list) {
   return length;
 }
 
-// Fetches, sorts and delivers a list of few fragments, which ends at 0; else returns true, and nothing was delivered.
-bool fetchShort(uint list, out uint count) {
-  count = 0u;
-  uint node = heads[list];
-  for (; node != 0u && count < uint(SORT_SHORT); ++count) {
-    sortedKeys[count] = nodes[node - 1u].key, sortedIds[count] = nodes[node - 1u].id;
-    node = nodes[node - 1u].next;
-  }
-  return node == 0u;
-}
-
+// Lists follow one another in depth, so one sort of all their fragments leaves each where it is.
 void main() {
-  uint first = pixelIndex() * uint(LISTS);
-#if LISTS > 1
-  bool any = false, tooLong = false;
-  for (uint list = first; list < first + uint(LISTS); ++list) any = any || heads[list] != 0u;
-  if (!any) return;
+  uint first = pixelIndex() * uint(LISTS), count = 0u;
+  bool whole = true;
   for (uint list = first; list < first + uint(LISTS); ++list) {
-    uint length = lengthOf(list);
-    if (length > uint(SORT_SHORT)) atomicMax(longest, length), tooLong = true;
+    uint node = heads[list];
+    for (; node != 0u && count < uint(SORT_SHORT); ++count) {
+      sortedKeys[count] = nodes[node - 1u].key, sortedIds[count] = nodes[node - 1u].id;
+      node = nodes[node - 1u].next;
+    }
+    whole = whole && node == 0u;
   }
-  if (tooLong) return;
-#else
-  if (heads[first] == 0u) return;
-#endif
+  if (count == 0u) return;
+  if (!whole) {
+    for (uint list = first; list < first + uint(LISTS); ++list) atomicMax(longest, lengthOf(list));
+    return;
+  }
+  heads[first] = LIST_DONE;
+  sortShort(count);
   foldLoad(COPEEL_FRONT);
-  for (uint list = first; list < first + uint(LISTS); ++list) {
-    uint count;
-    if (!fetchShort(list, count)) {
-      atomicMax(longest, lengthOf(list));
-      return;
-    }
-    sortShort(count);
-    heads[list] = 0u;
-    if (deliverShort(count)) {
-      for (uint rest = list; rest < first + uint(LISTS); ++rest) heads[rest] = 0u;
-      break;
-    }
-  }
+  deliverShort(count);
   foldStore(COPEEL_FRONT);
 }
 
@@ -87,6 +70,7 @@ uniform uint run;
 
 void main() {
   uint first = pixelIndex() * uint(LISTS), merges;
+  if (heads[first] == LIST_DONE) return;
   for (uint list = first; list < first + uint(LISTS); ++list) {
     if (heads[list] != 0u) heads[list] = mergeRuns(heads[list], run, merges);
   }
@@ -96,6 +80,7 @@ void main() {
 
 void main() {
   uint first = pixelIndex() * uint(LISTS);
+  if (heads[first] == LIST_DONE) return;
   foldLoad(COPEEL_FRONT);
   for (uint list = first; list < first + uint(LISTS); ++list) {
     if (deliverList(heads[list])) break;
