@@ -12,5 +12,9 @@ MethodCounts drawSb(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawKb(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawKPlus(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawBunLl(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawSrab(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawMultiKb(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawBun(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawBad(gl::Frame& frame, const MethodOptions& options);
 
 }  // namespace copeel

@@ -21,6 +21,10 @@ const std::vector<MethodInfo>& methods() {
       {"k-plus", "k+-buffer: spin lock or interlock, the K nearest", "Vasilakis, Fudos 2014", "gl", "1", "8 K + 8 a pixel", "min(K, N) / N", false, drawKPlus},
       {"bun-ll", "bucket peeling with linked lists", "Vasilakis, Fudos 2013, 3.1.4", "gl", "1, 2 where it grows",
        "20 a pixel + 60 times the fullest bucket + 324", "1", true, drawBunLl},
+      {"srab", "stencil-routed A-buffer: the first K drawn", "Myers, Bavoil 2007", "gl", "1", "8 K + 4 a pixel", "min(K, N) / N", false, drawSrab},
+      {"multi-kb", "multi-layer depth peeling via fragment sort", "Liu 2006", "gl", "2 ceil(D / K) + 1", "8 K + 4 a pixel", "D / N", false, drawMultiKb},
+      {"bun", "uniform bucket peeling", "Liu 2009", "gl", "2", "16 K a pixel", "<= D / N", false, drawBun},
+      {"bad", "adaptive bucket peeling", "Liu 2009", "gl", "4", "16 K + 40 a pixel", "<= D / N", false, drawBad},
 #endif
   };
   return all;

@@ -155,5 +155,131 @@ TEST(GlBuffers, occupancyKeepsTheNearestAtEveryResolution) {
   }
 }
 
+// Whether the fragments of `part` are some of `whole`, in its groups and order.
+bool isPartOf(const Pixel& part, const Pixel& whole) {
+  auto group = whole.begin();
+  for (const Group& some : part) {
+    const auto holds = [&](const Group& all) {
+      return std::all_of(some.begin(), some.end(), [&](const Crossing& c) { return std::find(all.begin(), all.end(), c) != all.end(); });
+    };
+    group = std::find_if(group, whole.end(), holds);
+    if (group == whole.end()) return false;
+    ++group;
+  }
+  return true;
+}
+
+TEST(GlBuffers, routedOnesKeepKFragments) {
+  for (const GlScene& scene : glScenes()) {
+    Rendered rendered(scene);
+    for (const std::uint32_t k : {1u, 2u, 8u, 32u}) {
+      const GlStacks stacks = rendered.stacksOf("srab", {.k = k});
+      for (std::size_t i = 0; i < rendered.pixels().size(); ++i) {
+        const Pixel &part = stacks.stacks.pixels[i], &whole = rendered.pixels()[i];
+        ASSERT_EQ(fragmentsOf(part), std::min<std::size_t>(k, fragmentsOf(whole))) << scene.name << ", K " << k;
+        ASSERT_TRUE(isPartOf(part, whole)) << scene.name << ", K " << k;
+      }
+      EXPECT_EQ(stacks.delivered + stacks.counts.method.overflow, rendered.fragments()) << scene.name;
+      EXPECT_EQ(stacks.counts.passes, 1u);
+      EXPECT_EQ(stacks.counts.methodBytes, rendered.pixelCount() * (8 * k + 4) + 4 + 4);
+    }
+  }
+}
+
+// The more fragments behind the k-th are turned away, the more places are left for near ones.
+TEST(GlBuffers, occupancyBringsRoutedOnesNearer) {
+  const GlScene scene = glScenes()[10];
+  Rendered rendered(scene);
+  const auto nearestDelivered = [&](bool occupancy) {
+    const GlStacks stacks = rendered.stacksOf("srab", {.k = 8, .occupancy = occupancy, .occupancyWords = 64});
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < rendered.pixels().size(); ++i) {
+      for (const Group& group : nearest(rendered.pixels()[i], 8)) {
+        const auto& groups = stacks.stacks.pixels[i];
+        count += std::find(groups.begin(), groups.end(), group) != groups.end();
+      }
+    }
+    return count;
+  };
+  EXPECT_LT(nearestDelivered(false), nearestDelivered(true));
+}
+
+TEST(GlBuffers, occupancyShortensLists) {
+  for (const GlScene& scene : glScenes()) {
+    Rendered rendered(scene);
+    const GlStacks stacks = rendered.stacksOf("ll", {.k = 4, .occupancy = true});
+    for (std::size_t i = 0; i < rendered.pixels().size(); ++i) {
+      const Pixel &part = stacks.stacks.pixels[i], &whole = rendered.pixels()[i];
+      // What is left is the whole front of the stack, of 4 fragments at least.
+      ASSERT_GE(fragmentsOf(part), std::min<std::size_t>(4, fragmentsOf(whole))) << scene.name;
+      ASSERT_TRUE(part == Pixel(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(part.size()))) << scene.name;
+    }
+    if (scene.name == "300 layers") {
+      EXPECT_LT(stacks.delivered * 10, rendered.fragments());
+    }
+  }
+}
+
+TEST(GlBuffers, multipassKBufferPeelsEveryLayer) {
+  for (const GlScene& scene : glScenes()) {
+    Rendered rendered(scene);
+    for (const std::uint32_t k : {1u, 2u, 8u, 32u}) {
+      if (k == 1 && rendered.deepest() > 200) continue;   // 600 passes
+      const GlStacks stacks = rendered.stacksOf("multi-kb", {.k = k});
+      std::size_t layers = 0;
+      for (std::size_t i = 0; i < rendered.pixels().size(); ++i) {
+        const Pixel &part = stacks.stacks.pixels[i], &whole = rendered.pixels()[i];
+        layers = std::max(layers, whole.size());
+        ASSERT_EQ(part.size(), whole.size()) << scene.name << ", K " << k;
+        ASSERT_EQ(fragmentsOf(part), whole.size()) << scene.name << ", K " << k;
+        ASSERT_TRUE(isPartOf(part, whole)) << scene.name << ", K " << k;
+      }
+      EXPECT_EQ(stacks.counts.passes, 2 * ((layers + k - 1) / k) + 1 + stacks.counts.method.repeats) << scene.name << ", K " << k;
+      EXPECT_EQ(stacks.counts.methodBytes, rendered.pixelCount() * (8 * k + 4));
+    }
+  }
+}
+
+TEST(GlBuffers, bucketsKeepTheirEnds) {
+  for (const GlScene& scene : glScenes()) {
+    Rendered rendered(scene);
+    for (const char* method : {"bun", "bad"}) {
+      const GlStacks stacks = rendered.stacksOf(method, {.k = 8});
+      for (std::size_t i = 0; i < rendered.pixels().size(); ++i) {
+        const Pixel &part = stacks.stacks.pixels[i], &whole = rendered.pixels()[i];
+        ASSERT_TRUE(isPartOf(part, whole)) << scene.name << ", " << method;
+        ASSERT_EQ(fragmentsOf(part), part.size()) << scene.name << ", " << method;
+        // The nearest and the farthest layer are ends of their buckets, whatever these are; of each the later primitive is kept.
+        ASSERT_GE(part.size(), std::min<std::size_t>(2, whole.size())) << scene.name << ", " << method;
+        if (whole.empty()) continue;
+        ASSERT_EQ(part.front().back(), whole.front().back()) << scene.name << ", " << method;
+        ASSERT_EQ(part.back().back(), whole.back().back()) << scene.name << ", " << method;
+        // Equal steps of depth fill all buckets.
+        if (scene.name == "300 layers") {
+          ASSERT_EQ(part.size(), 16u) << method;
+        }
+      }
+      const bool adaptive = method == std::string("bad");
+      EXPECT_EQ(stacks.counts.passes, adaptive ? 4u : 2u);
+      EXPECT_EQ(stacks.counts.methodBytes, rendered.pixelCount() * (16 * 8 + (adaptive ? 40 : 0))) << method;
+    }
+  }
+}
+
+// Eight layers close together and one far behind: uniform buckets lose six of them, adaptive ones none.
+TEST(GlBuffers, adaptiveBucketsFollowTheFragments) {
+  const MeshPointer square = share(squareAt(0));
+  std::vector<Object> objects = {{square, translation({0, 0, -1})}};
+  for (int i = 0; i < 8; ++i) objects.push_back({square, translation({0, 0, 0.02 * i})});
+  const GlScene scene{"bundle", Scene(std::move(objects)), above(16, 12, 0.1)};
+  Rendered rendered(scene);
+  for (std::size_t i = 0; i < rendered.pixels().size(); ++i) {
+    if (rendered.pixels()[i].empty()) continue;
+    EXPECT_EQ(rendered.stacksOf("bun", {.k = 4}).stacks.pixels[i].size(), 3u);
+    EXPECT_EQ(rendered.stacksOf("bad", {.k = 9}).stacks.pixels[i].size(), 9u);
+    break;
+  }
+}
+
 }  // namespace
 }  // namespace copeel::test
