@@ -213,6 +213,14 @@ const Buffer& Frame::buffer(const std::string& name, int slot, std::size_t bytes
   return named.buffer;
 }
 
+void Frame::texels(const Buffer& buffer, int unit, GLenum format) {
+  GLuint texture = 0;
+  glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture);
+  texels_[unit] = Texture(texture);
+  glTextureBuffer(texture, format, buffer.name());
+  glBindTextureUnit(static_cast<GLuint>(unit), texture);
+}
+
 const Buffer& Frame::pixelWords(const std::string& name, int slot, std::size_t wordsPerPixel) {
   return buffer(name, slot, pixelCount() * wordsPerPixel * sizeof(std::uint32_t));
 }
@@ -287,7 +295,7 @@ void Frame::drawObjects(const Program& program, std::uint32_t begin, std::uint32
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   glUseProgram(program.name());
   scene_.draw(clip_, begin, end);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 void Frame::drawPixels(const Program& program) {
@@ -295,7 +303,7 @@ void Frame::drawPixels(const Program& program) {
   glUseProgram(program.name());
   glBindVertexArray(noVertices_);
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 void Frame::clearDepth() {

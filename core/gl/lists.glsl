@@ -34,6 +34,9 @@ void gatherIntoList(uint list, uint key) {
 
 #if defined(PASS_RESOLVE)
 
+layout(binding = 9) uniform usamplerBuffer headTexels;
+layout(binding = 10) uniform usamplerBuffer nodeTexels;
+
 uint lengthOf(uint list) {
   uint length = 0u;
   for (uint node = heads[list]; node != 0u && length <= LIST_MOST; node = nodes[node - 1u].next) ++length;
@@ -45,10 +48,10 @@ void main() {
   uint first = pixelIndex() * uint(LISTS), count = 0u;
   bool whole = true;
   for (uint list = first; list < first + uint(LISTS); ++list) {
-    uint node = heads[list];
+    uint node = texelFetch(headTexels, int(list)).r;
     for (; node != 0u && count < uint(SORT_SHORT); ++count) {
-      sortedKeys[count] = nodes[node - 1u].key, sortedIds[count] = nodes[node - 1u].id;
-      node = nodes[node - 1u].next;
+      uvec4 words = texelFetch(nodeTexels, int(node - 1u));
+      node = words.x, sortedKeys[count] = words.y, sortedIds[count] = words.z;
     }
     whole = whole && node == 0u;
   }

@@ -12,6 +12,8 @@ layout(std430, binding = COPEEL_BUFFER_METHOD + 7) coherent buffer Longest { uin
 
 #if defined(PASS_RESOLVE)
 
+layout(binding = 9) uniform usamplerBuffer arrayTexels;
+
 // Delivers, or puts off what is too long.
 void deliverArray(uint first, uint count) {
   if (count > uint(SORT_SHORT)) {
@@ -20,7 +22,7 @@ void deliverArray(uint first, uint count) {
   }
   // Later primitives come last and lie in front of their coplanar ones, so the array is read from its end.
   for (uint i = 0u; i < count; ++i) {
-    uvec2 fragment = ARRAY[first + count - 1u - i];
+    uvec4 fragment = texelFetch(arrayTexels, int(first + count - 1u - i));
     sortedKeys[i] = fragment.x, sortedIds[i] = fragment.y;
   }
   sortShort(count);

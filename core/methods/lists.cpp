@@ -61,6 +61,8 @@ MethodCounts drawLists(gl::Frame& frame, const MethodOptions& options, const cha
     if (counts.overflow == 0 || capacity >= most) break;
     capacity = std::min(wanted, most);
   }
+  frame.texels(heads, 9, GL_R32UI);
+  frame.texels(frame.buffer("nodes", 1, capacity * placeBytes), 10, GL_RGB32UI);
   deliverLists(frame, file, defines);
   return counts;
 }

@@ -38,6 +38,7 @@ MethodCounts drawSb(gl::Frame& frame, const MethodOptions& options) {
   const gl::Program& fill = frame.geometryProgram(file, "FILL", defines);
   fill.set("capacity", static_cast<GLuint>(capacity));
   frame.drawGeometry(fill);
+  frame.texels(frame.buffer("fragments", 3, capacity * 8), 9, GL_RG32UI);
   deliverArrays(frame, file, {{"capacity", static_cast<GLuint>(capacity)}}, defines);
   return {.iterations = 1, .overflow = total - capacity};
 }
