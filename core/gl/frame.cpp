@@ -182,6 +182,8 @@ void Frame::writeFrameBlock(const std::vector<DepthPlane>& depths) {
   records.reserve(depths.size());
   for (const DepthPlane& plane : depths) records.push_back({plane.a, plane.b, plane.c, plane.lo, plane.hi});
   planes_ = Buffer(records);
+  texels(planes_, COPEEL_TEXTURE_PLANES, GL_RGBA32UI);
+  texels(scene_.primitives(), COPEEL_TEXTURE_PRIMITIVES, GL_RG32UI);
 }
 
 void Frame::setFold(const FoldSource& fold) {
@@ -275,7 +277,6 @@ void Frame::begin() {
   // Rows run downwards here, which turns triangles about.
   glFrontFace(GL_CW);
   frameBlock_.bindUniform(COPEEL_BLOCK_FRAME);
-  planes_.bindStorage(COPEEL_BUFFER_PLANES);
   scene_.primitives().bindStorage(COPEEL_BUFFER_PRIMITIVES);
   states_.bindStorage(COPEEL_BUFFER_FOLD_STATE);
   results_.bindStorage(COPEEL_BUFFER_FOLD_RESULT);

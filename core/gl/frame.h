@@ -46,7 +46,7 @@ class Frame {
   // A buffer of the method's, of at least so many bytes; the same name gives the same buffer. `slot` 0 … 7 is where shaders find it:
   // binding = COPEEL_BUFFER_METHOD + slot. Its contents are those of the last use.
   const Buffer& buffer(const std::string& name, int slot, std::size_t bytes);
-  // Pixel passes read the buffer as texels of `format` too, as texture `unit` (9 to 15): some devices fetch texels faster than words of storage.
+  // Pixel passes read the buffer as texels of `format` too, as texture `unit` (from COPEEL_TEXTURE_METHOD on): some devices fetch texels faster than words of storage.
   void texels(const Buffer& buffer, int unit, GLenum format);
   const Buffer& pixelWords(const std::string& name, int slot, std::size_t wordsPerPixel = 1);
 

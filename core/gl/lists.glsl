@@ -1,4 +1,4 @@
-// Linked lists of fragments, LISTS of them a pixel one behind the other, each with a node memory of its own: gathered by gatherIntoList(), resolved by the
+// Linked lists of fragments, LISTS of them a pixel one behind the other in depth, each with a node memory of its own: gathered by gatherIntoList(), resolved by the
 // passes that drawLists() draws (core/methods/lists.h).
 //
 // Pixels of few fragments are sorted in registers. The others wait for passes that each merge one level, as drivers end shaders that loop for
@@ -14,6 +14,8 @@ layout(std430, binding = COPEEL_BUFFER_METHOD + 1) buffer Nodes { Node nodes[]; 
 layout(std430, binding = COPEEL_BUFFER_METHOD + 2) coherent buffer Wanted { uint wanted[]; };   // nodes of each memory, 16 words apart
 layout(std430, binding = COPEEL_BUFFER_METHOD + 3) coherent buffer Longest { uint longest; };   // list that was put off
 
+uint headOf(uint list) { return list * uint(size.x * size.y) + pixelIndex(); }
+
 #if defined(PASS_GATHER)
 
 uniform uint capacity;   // nodes of a memory
@@ -22,7 +24,7 @@ void gatherIntoList(uint list, uint key) {
   uint node = atomicAdd(wanted[list * 16u], 1u);
   if (node >= capacity) return;
   node += list * capacity;
-  nodes[node] = Node(atomicExchange(heads[pixelIndex() * uint(LISTS) + list], node + 1u), key, fragmentId());
+  nodes[node] = Node(atomicExchange(heads[headOf(list)], node + 1u), key, fragmentId());
 }
 
 #else
@@ -34,21 +36,21 @@ void gatherIntoList(uint list, uint key) {
 
 #if defined(PASS_RESOLVE)
 
-layout(binding = 9) uniform usamplerBuffer headTexels;
-layout(binding = 10) uniform usamplerBuffer nodeTexels;
+layout(binding = COPEEL_TEXTURE_METHOD) uniform usamplerBuffer headTexels;
+layout(binding = COPEEL_TEXTURE_METHOD + 1) uniform usamplerBuffer nodeTexels;
 
 uint lengthOf(uint list) {
   uint length = 0u;
-  for (uint node = heads[list]; node != 0u && length <= LIST_MOST; node = nodes[node - 1u].next) ++length;
+  for (uint node = heads[headOf(list)]; node != 0u && length <= LIST_MOST; node = nodes[node - 1u].next) ++length;
   return length;
 }
 
 // Lists follow one another in depth, so one sort of all their fragments leaves each where it is.
 void main() {
-  uint first = pixelIndex() * uint(LISTS), count = 0u;
+  uint count = 0u;
   bool whole = true;
-  for (uint list = first; list < first + uint(LISTS); ++list) {
-    uint node = texelFetch(headTexels, int(list)).r;
+  for (uint list = 0u; list < uint(LISTS); ++list) {
+    uint node = texelFetch(headTexels, int(headOf(list))).r;
     for (; node != 0u && count < uint(SORT_SHORT); ++count) {
       uvec4 words = texelFetch(nodeTexels, int(node - 1u));
       node = words.x, sortedKeys[count] = words.y, sortedIds[count] = words.z;
@@ -57,10 +59,10 @@ void main() {
   }
   if (count == 0u) return;
   if (!whole) {
-    for (uint list = first; list < first + uint(LISTS); ++list) atomicMax(longest, lengthOf(list));
+    for (uint list = 0u; list < uint(LISTS); ++list) atomicMax(longest, lengthOf(list));
     return;
   }
-  heads[first] = LIST_DONE;
+  heads[headOf(0u)] = LIST_DONE;
   sortShort(count);
   foldLoad(COPEEL_FRONT);
   deliverShort(count);
@@ -72,21 +74,20 @@ void main() {
 uniform uint run;
 
 void main() {
-  uint first = pixelIndex() * uint(LISTS), merges;
-  if (heads[first] == LIST_DONE) return;
-  for (uint list = first; list < first + uint(LISTS); ++list) {
-    if (heads[list] != 0u) heads[list] = mergeRuns(heads[list], run, merges);
+  uint merges;
+  if (heads[headOf(0u)] == LIST_DONE) return;
+  for (uint list = 0u; list < uint(LISTS); ++list) {
+    if (heads[headOf(list)] != 0u) heads[headOf(list)] = mergeRuns(heads[headOf(list)], run, merges);
   }
 }
 
 #elif defined(PASS_LONG)
 
 void main() {
-  uint first = pixelIndex() * uint(LISTS);
-  if (heads[first] == LIST_DONE) return;
+  if (heads[headOf(0u)] == LIST_DONE) return;
   foldLoad(COPEEL_FRONT);
-  for (uint list = first; list < first + uint(LISTS); ++list) {
-    if (deliverList(heads[list])) break;
+  for (uint list = 0u; list < uint(LISTS); ++list) {
+    if (deliverList(heads[headOf(list)])) break;
   }
   foldStore(COPEEL_FRONT);
 }

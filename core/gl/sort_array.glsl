@@ -12,7 +12,7 @@ layout(std430, binding = COPEEL_BUFFER_METHOD + 7) coherent buffer Longest { uin
 
 #if defined(PASS_RESOLVE)
 
-layout(binding = 9) uniform usamplerBuffer arrayTexels;
+layout(binding = COPEEL_TEXTURE_METHOD) uniform usamplerBuffer arrayTexels;
 
 // Delivers, or puts off what is too long.
 void deliverArray(uint first, uint count) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/gl/layout.h"
+
 namespace copeel {
 namespace {
 
@@ -12,7 +14,8 @@ constexpr std::size_t kMostBytes = 0x7FFF0000;
 
 }  // namespace
 
-void deliverArrays(gl::Frame& frame, const std::string& file, const Uniforms& uniforms, const gl::Defines& defines) {
+void deliverArrays(gl::Frame& frame, const std::string& file, const gl::Buffer& fragments, const Uniforms& uniforms,
+                   const gl::Defines& defines) {
   const auto program = [&](const char* pass) -> const gl::Program& {
     const gl::Program& found = frame.pixelProgram(file, pass, defines);
     for (const auto& [name, value] : uniforms) found.set(name, value);
@@ -26,6 +29,7 @@ void deliverArrays(gl::Frame& frame, const std::string& file, const Uniforms& un
   };
   const gl::Buffer& putOff = frame.buffer("longest", 7, 4);
   putOff.clear(0);
+  frame.texels(fragments, COPEEL_TEXTURE_METHOD, GL_RG32UI);
   frame.drawPixels(program("RESOLVE"));
   const std::uint32_t longest = putOff.read<std::uint32_t>(1)[0];
   if (longest == 0) return;

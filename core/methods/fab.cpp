@@ -31,8 +31,7 @@ MethodCounts drawFab(gl::Frame& frame, const MethodOptions& options) {
     if (counts.overflow == 0 || capacity >= most) break;
     capacity = std::min<std::size_t>(missed[1], most);
   }
-  frame.texels(frame.buffer("fragments", 1, capacity * perPlace), 9, GL_RG32UI);
-  deliverArrays(frame, file, {{"capacity", static_cast<GLuint>(capacity)}});
+  deliverArrays(frame, file, frame.buffer("fragments", 1, capacity * perPlace), {{"capacity", static_cast<GLuint>(capacity)}});
   return counts;
 }
 

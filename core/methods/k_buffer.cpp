@@ -20,12 +20,12 @@ MethodCounts drawNearest(gl::Frame& frame, const MethodOptions& options, const c
   gl::Defines gatherDefines = drawOccupancy(frame, options);
   gatherDefines.insert(gatherDefines.end(), defines.begin(), defines.end());
   frame.pixelWords("seen", 0).clear(0);
-  frame.pixelWords("nearest", 1, 2 * std::size_t{options.k});
+  const gl::Buffer& nearest = frame.pixelWords("nearest", 1, 2 * std::size_t{options.k});
   frame.pixelWords("kept", 2).clear(0);
   const gl::Buffer& missed = frame.buffer("missed", 3, 8);
   missed.clear(0);
   frame.drawGeometry(frame.geometryProgram(file, "GATHER", gatherDefines));
-  deliverArrays(frame, file, {}, defines);
+  deliverArrays(frame, file, nearest, {}, defines);
   const std::vector<std::uint32_t> words = missed.read<std::uint32_t>(2);
   return {.iterations = 1, .overflow = words[0], .repeats = 0, .hazards = words[1]};
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/gl/layout.h"
 #include "core/methods/arrays.h"
 #include "core/methods/occupancy.h"
 
@@ -61,8 +62,8 @@ MethodCounts drawLists(gl::Frame& frame, const MethodOptions& options, const cha
     if (counts.overflow == 0 || capacity >= most) break;
     capacity = std::min(wanted, most);
   }
-  frame.texels(heads, 9, GL_R32UI);
-  frame.texels(frame.buffer("nodes", 1, capacity * placeBytes), 10, GL_RGB32UI);
+  frame.texels(heads, COPEEL_TEXTURE_METHOD, GL_R32UI);
+  frame.texels(frame.buffer("nodes", 1, capacity * placeBytes), COPEEL_TEXTURE_METHOD + 1, GL_RGB32UI);
   deliverLists(frame, file, defines);
   return counts;
 }

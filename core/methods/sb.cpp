@@ -34,12 +34,11 @@ MethodCounts drawSb(gl::Frame& frame, const MethodOptions& options) {
   const std::size_t total = groups.read<std::uint32_t>(2 * kGroups + 1).back();
   const std::size_t most = roomFor(options.memoryBytes, pixelCounts.bytes() + places.bytes() + groups.bytes()) / 8;
   const std::size_t capacity = std::min(total, most);
-  frame.buffer("fragments", 3, capacity * 8);
+  const gl::Buffer& fragments = frame.buffer("fragments", 3, capacity * 8);
   const gl::Program& fill = frame.geometryProgram(file, "FILL", defines);
   fill.set("capacity", static_cast<GLuint>(capacity));
   frame.drawGeometry(fill);
-  frame.texels(frame.buffer("fragments", 3, capacity * 8), 9, GL_RG32UI);
-  deliverArrays(frame, file, {{"capacity", static_cast<GLuint>(capacity)}}, defines);
+  deliverArrays(frame, file, fragments, {{"capacity", static_cast<GLuint>(capacity)}}, defines);
   return {.iterations = 1, .overflow = total - capacity};
 }
 

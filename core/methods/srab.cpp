@@ -18,11 +18,11 @@ MethodCounts drawSrab(gl::Frame& frame, const MethodOptions& options) {
   gl::Defines gatherDefines = drawOccupancy(frame, options);
   gatherDefines.insert(gatherDefines.end(), defines.begin(), defines.end());
   frame.pixelWords("arrived", 0).clear(0);
-  frame.pixelWords("routed", 1, 2 * std::size_t{options.k});
+  const gl::Buffer& routed = frame.pixelWords("routed", 1, 2 * std::size_t{options.k});
   const gl::Buffer& missed = frame.buffer("missed", 3, 4);
   missed.clear(0);
   frame.drawGeometry(frame.geometryProgram(file, "GATHER", gatherDefines));
-  deliverArrays(frame, file, {}, defines);
+  deliverArrays(frame, file, routed, {}, defines);
   return {.iterations = 1, .overflow = missed.read<std::uint32_t>(1)[0]};
 }
 
