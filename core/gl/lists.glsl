@@ -14,7 +14,7 @@ layout(std430, binding = COPEEL_BUFFER_METHOD + 1) buffer Nodes { Node nodes[]; 
 layout(std430, binding = COPEEL_BUFFER_METHOD + 2) coherent buffer Wanted { uint wanted[]; };   // nodes of each memory, 16 words apart
 layout(std430, binding = COPEEL_BUFFER_METHOD + 3) coherent buffer Longest { uint longest; };   // list that was put off
 
-uint headOf(uint list) { return list * uint(size.x * size.y) + pixelIndex(); }
+uint headOf(uint list) { return pixelIndex() * uint(LISTS) + list; }
 
 #if defined(PASS_GATHER)
 
@@ -45,20 +45,28 @@ uint lengthOf(uint list) {
   return length;
 }
 
-// Lists follow one another in depth, so one sort of all their fragments leaves each where it is.
+// Lists follow one another in depth, so one sort of all their fragments leaves each where it is. They are walked in one loop: lanes that run in lock step
+// then wait for the longest pixel, not for the longest list of each bucket.
 void main() {
-  uint count = 0u;
-  bool whole = true;
+  uint rest[LISTS], count = 0u, left = 0u;
   for (uint list = 0u; list < uint(LISTS); ++list) {
-    uint node = texelFetch(headTexels, int(headOf(list))).r;
-    for (; node != 0u && count < uint(SORT_SHORT); ++count) {
-      uvec4 words = texelFetch(nodeTexels, int(node - 1u));
-      node = words.x, sortedKeys[count] = words.y, sortedIds[count] = words.z;
+    rest[list] = texelFetch(headTexels, int(headOf(list))).r;
+    left |= rest[list];
+  }
+  while (left != 0u && count < uint(SORT_SHORT)) {
+    if (rest[0] != 0u) {
+      uvec4 words = texelFetch(nodeTexels, int(rest[0] - 1u));
+      rest[0] = words.x, sortedKeys[count] = words.y, sortedIds[count] = words.z;
+      ++count;
     }
-    whole = whole && node == 0u;
+    left = rest[0];
+    for (uint list = 1u; list < uint(LISTS); ++list) left |= rest[list];
+    if (rest[0] != 0u) continue;
+    for (uint list = 1u; list < uint(LISTS); ++list) rest[list - 1u] = rest[list];
+    rest[LISTS - 1] = 0u;
   }
   if (count == 0u) return;
-  if (!whole) {
+  if (left != 0u) {
     for (uint list = 0u; list < uint(LISTS); ++list) atomicMax(longest, lengthOf(list));
     return;
   }
