@@ -28,7 +28,10 @@ MethodCounts drawSb(gl::Frame& frame, const MethodOptions& options) {
   groups.clear(0);
   frame.drawGeometry(frame.geometryProgram(file, "COUNT", defines));
   frame.drawPixels(frame.pixelProgram(file, "PLACE", defines));
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(0, 0, 1, 1);
   frame.drawPixels(frame.pixelProgram(file, "PREFIX", defines));
+  glDisable(GL_SCISSOR_TEST);
 
   // The size of the memory is the one number that has to come back from the device.
   const std::size_t total = groups.read<std::uint32_t>(2 * kGroups + 1).back();

@@ -26,7 +26,10 @@ inline Scene copiesOf(const MeshPointer& mesh, int count, const glm::dvec3& step
 inline Mesh shuffled(Mesh mesh) {
   std::reverse(mesh.triangles.begin(), mesh.triangles.end());
   for (glm::uvec3& t : mesh.triangles) t = {t.y, t.z, t.x};
+  // Facets are numbered in the order of their triangles.
   std::reverse(mesh.facets.begin(), mesh.facets.end());
+  const auto last = mesh.facets.empty() ? 0 : mesh.facets.front();
+  for (auto& facet : mesh.facets) facet = last - facet;
   return mesh;
 }
 
