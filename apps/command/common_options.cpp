@@ -6,6 +6,9 @@
 
 #include <CLI/CLI.hpp>
 #include <sys/resource.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "apps/command/outputs.h"
 #include "apps/command/parse_values.h"

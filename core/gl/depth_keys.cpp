@@ -26,6 +26,7 @@ DepthScale depthScale(const std::vector<DepthPlane>& depths, bool perspective) {
   scale.nearest = perspective ? highBits : lowBits;
   scale.shift = 1;
   while (((highBits - lowBits) >> scale.shift) >= COPEEL_KEY_NONE - COPEEL_KEY_LEAST) ++scale.shift;
+  scale.keys = static_cast<std::uint32_t>((highBits - lowBits) >> scale.shift) + 1;
   return scale;
 }
 

@@ -12,6 +12,7 @@ struct DepthScale {
   double origin = 0;
   std::uint64_t nearest = 0;   // bits of the nearest value
   int shift = 31, sign = 1;
+  std::uint32_t keys = 1;      // that are in use
 };
 
 DepthScale depthScale(const std::vector<DepthPlane>& depths, bool perspective);

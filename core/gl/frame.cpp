@@ -27,7 +27,8 @@ struct FrameBlock {
   glm::dvec2 center;
   double depthOrigin;
   std::uint32_t depthNearest[2];
-  std::int32_t depthShift, depthSign, size[2], depthHardware, padding[3];
+  std::int32_t depthShift, depthSign, size[2], depthHardware;
+  std::uint32_t depthKeys, padding[2];
 };
 static_assert(sizeof(FrameBlock) == 64);
 
@@ -146,6 +147,7 @@ void Frame::writeFrameBlock(const std::vector<DepthPlane>& depths) {
   block.depthShift = scale.shift;
   block.depthSign = scale.sign;
   block.size[0] = width_, block.size[1] = height_;
+  block.depthKeys = scale.keys;
   block.depthHardware = depthSource_ == DepthSource::Hardware;
   frameBlock_.write(&block, sizeof block);
 
@@ -156,6 +158,8 @@ void Frame::writeFrameBlock(const std::vector<DepthPlane>& depths) {
     records.push_back({plane.a, plane.b, plane.c, holdsEye ? 1.0f : plane.lo, holdsEye ? 0.0f : plane.hi});
   }
   planes_ = Buffer(records);
+  texels(planes_, COPEEL_TEXTURE_PLANES, GL_RGBA32UI);
+  texels(scene_.primitives(), COPEEL_TEXTURE_PRIMITIVES, GL_RG32UI);
 }
 
 void Frame::setFold(const FoldSource& fold) {
@@ -190,6 +194,14 @@ const Buffer& Frame::buffer(const std::string& name, int slot, std::size_t bytes
   named.usedIn = frames_;
   named.buffer.bindStorage(static_cast<GLuint>(COPEEL_BUFFER_METHOD + slot));
   return named.buffer;
+}
+
+void Frame::texels(const Buffer& buffer, int unit, GLenum format) {
+  GLuint texture = 0;
+  glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture);
+  texels_[unit] = Texture(texture);
+  glTextureBuffer(texture, format, buffer.name());
+  glBindTextureUnit(static_cast<GLuint>(unit), texture);
 }
 
 const Buffer& Frame::pixelWords(const std::string& name, int slot, std::size_t wordsPerPixel) {
@@ -250,7 +262,6 @@ void Frame::begin() {
   // Rows run downwards here, which turns triangles about.
   glFrontFace(GL_CW);
   frameBlock_.bindUniform(COPEEL_BLOCK_FRAME);
-  planes_.bindStorage(COPEEL_BUFFER_PLANES);
   scene_.primitives().bindStorage(COPEEL_BUFFER_PRIMITIVES);
   states_.bindStorage(COPEEL_BUFFER_FOLD_STATE);
   results_.bindStorage(COPEEL_BUFFER_FOLD_RESULT);
@@ -274,7 +285,7 @@ void Frame::drawObjects(const Program& program, std::uint32_t begin, std::uint32
   if (culls_) count = culling_->draw(begin, end, [&](std::uint32_t first, std::uint32_t last) { scene_.draw(clip_, first, last); });
   else scene_.draw(clip_, begin, end);
   if (!objectsDrawn_.empty()) objectsDrawn_.back() += count;
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 void Frame::cullObjects(const Program& box) {
@@ -289,7 +300,7 @@ void Frame::drawPixels(const Program& program) {
   glUseProgram(program.name());
   glBindVertexArray(noVertices_);
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 void Frame::clearDepth() {

@@ -9,6 +9,7 @@ layout(std140, binding = COPEEL_BLOCK_FRAME) uniform Frame {
   int depthSign;
   ivec2 size;              // pixels
   int depthHardware;       // 1: the rasterizer's own depth, as in the papers
+  uint depthKeys;          // keys in use: COPEEL_KEY_LEAST and so many from there on
 };
 
 uint pixelIndex() { return uint(gl_FragCoord.y) * uint(size.x) + uint(gl_FragCoord.x); }

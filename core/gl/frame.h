@@ -51,6 +51,8 @@ class Frame {
   // A buffer of the method's, of at least so many bytes; the same name gives the same buffer. `slot` 0 … 7 is where shaders find it:
   // binding = COPEEL_BUFFER_METHOD + slot. Its contents are those of the last use.
   const Buffer& buffer(const std::string& name, int slot, std::size_t bytes);
+  // Pixel passes read the buffer as texels of `format` too, as texture `unit` (from COPEEL_TEXTURE_METHOD on): some devices fetch texels faster than words of storage.
+  void texels(const Buffer& buffer, int unit, GLenum format);
   const Buffer& pixelWords(const std::string& name, int slot, std::size_t wordsPerPixel = 1);
 
   std::size_t keptBytes(const std::string& name) const;   // of a buffer asked for before, else 0
@@ -115,6 +117,7 @@ class Frame {
   };
   std::map<std::string, Target> targets_;
   Texture depth_;
+  std::map<int, Texture> texels_;
   Framebuffer framebuffer_, noTargets_;
   VertexArray noVertices_;
   Query query_;

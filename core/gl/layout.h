@@ -35,6 +35,11 @@
 #define COPEEL_BUFFER_OPAQUE 7
 #define COPEEL_BUFFER_METHOD 8          // to 15
 
+// Texture units: 0 to 7 are the method's targets, 8 the depth buffer, from COPEEL_TEXTURE_METHOD on the method's buffers as texels.
+#define COPEEL_TEXTURE_PLANES 9
+#define COPEEL_TEXTURE_PRIMITIVES 10
+#define COPEEL_TEXTURE_METHOD 11
+
 // The compute shader that projects vertices uses bindings of its own.
 #define COPEEL_BUFFER_VERTICES 0
 #define COPEEL_BUFFER_PLACEMENTS 1

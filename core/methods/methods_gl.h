@@ -19,6 +19,15 @@ MethodCounts drawDual2p(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawDualLl(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawDualFab(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawDualKb(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawFab(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawLl(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawSb(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawKb(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawKPlus(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawBunLl(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawSrab(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawMultiKb(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawBun(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawBad(gl::Frame& frame, const MethodOptions& options);
 
 }  // namespace copeel

@@ -44,7 +44,17 @@ const std::vector<MethodInfo>& methods() {
        "24 + 8 K a pixel", "Σ min(K, C(Z)) / N", false, drawDualFab, "+cull"},
       {"dual-kb", "k-buffers at both ends", "Vasilakis and Fudos 2013, 3.2.1", "gl", "2 ⌈D / 2⌉ + 1",
        "16 + 8 K a pixel", "Σ min(K, C(Z)) / N", false, drawDualKb, "+cull"},
-      {"ll", "A-buffer in per-pixel linked lists", "Yang 2010", "gl", "1, 2 where it grows", "4 a pixel + 12 a fragment", "1", true, drawLl},
+      {"fab", "A-buffer in fixed-size arrays", "Liu 2010 (FreePipe), Crassin 2010", "gl", "1, 2 where it grows", "4 + 8 max(K, N) a pixel", "1", true, drawFab},
+      {"ll", "A-buffer in per-pixel linked lists", "Yang 2010", "gl", "1, 2 where it grows", "4 a pixel + 12 max(4 pixels, N) + 68", "1", true, drawLl, "+occupancy"},
+      {"sb", "S-buffer: count, prefix sum, fill", "Vasilakis, Fudos 2012", "gl", "2", "8 a pixel + 8 a fragment + 260", "1", true, drawSb},
+      {"kb", "k-buffer", "Bavoil 2007", "gl", "1", "8 K + 8 a pixel", "min(K, N) / N at best", false, drawKb, "+occupancy"},
+      {"k-plus", "k+-buffer: spin lock or interlock, the K nearest", "Vasilakis, Fudos 2014", "gl", "1", "8 K + 8 a pixel", "min(K, N) / N", false, drawKPlus, "+occupancy"},
+      {"bun-ll", "bucket peeling with linked lists", "Vasilakis, Fudos 2013, 3.1.4", "gl", "1, 2 where it grows",
+       "20 a pixel + 60 times the fullest bucket + 324", "1", true, drawBunLl},
+      {"srab", "stencil-routed A-buffer: the first K drawn", "Myers, Bavoil 2007", "gl", "1", "8 K + 4 a pixel", "min(K, N) / N", false, drawSrab, "+occupancy"},
+      {"multi-kb", "multi-layer depth peeling via fragment sort", "Liu 2006", "gl", "2 ceil(D / K) + 1", "8 K + 4 a pixel", "D / N", false, drawMultiKb},
+      {"bun", "uniform bucket peeling", "Liu 2009", "gl", "2", "16 K a pixel", "<= D / N", false, drawBun},
+      {"bad", "adaptive bucket peeling", "Liu 2009", "gl", "4", "16 K + 40 a pixel", "<= D / N", false, drawBad},
 #endif
   };
   return all;
