@@ -122,6 +122,11 @@ std::string pictureFile(const CommonOptions& options, const std::string& input) 
 
 void limitMemory(std::uint64_t bytes) {
   if (bytes == 0) return;
+#ifdef __GLIBC__
+  // What the heap holds in reserve (apps/copeel/heap.h) would be beyond the limit's reach.
+  mallopt(M_TOP_PAD, 0);
+  malloc_trim(0);
+#endif
   struct rlimit limit = {};
   const bool known = getrlimit(RLIMIT_DATA, &limit) == 0;
   limit.rlim_cur = std::min<rlim_t>(bytes, limit.rlim_max);
