@@ -11,20 +11,10 @@ namespace copeel::validation {
 namespace {
 
 constexpr double kDeclaredTolerance = 1e-10;   // of the scene's diagonal, DESIGN.md
-constexpr double kNearShare = 1e-10;           // of the diagonal: what lies nearer before a perspective eye counts as behind it
 constexpr double kLeastUlps = 16;              // of the largest coordinate: below that a turned vertex does not find its plane again
 
 bool contains(const Box& box, const glm::dvec3& p) {
   return !box.empty() && glm::all(glm::lessThanEqual(box.min, p)) && glm::all(glm::lessThanEqual(p, box.max));
-}
-
-// The tolerance that the program declares for double input, in model units.
-double declaredTolerance(const Box& bounds) {
-  if (bounds.empty()) return 0;
-  double largest = 0;
-  for (int i = 0; i < 3; ++i) largest = std::max({largest, std::abs(bounds.min[i]), std::abs(bounds.max[i])});
-  const double ulp = std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
-  return std::max(kDeclaredTolerance * bounds.diagonal(), kLeastUlps * ulp);
 }
 
 // A closed box as a leaf.
@@ -36,6 +26,14 @@ csg::Leaf boxLeaf(const glm::dvec3& low, const glm::dvec3& high) {
 }
 
 }  // namespace
+
+double declaredTolerance(const Box& bounds) {
+  if (bounds.empty()) return 0;
+  double largest = 0;
+  for (int i = 0; i < 3; ++i) largest = std::max({largest, std::abs(bounds.min[i]), std::abs(bounds.max[i])});
+  const double ulp = std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
+  return std::max(kDeclaredTolerance * bounds.diagonal(), kLeastUlps * ulp);
+}
 
 double generalisedWinding(const OracleMesh& mesh, const glm::dvec3& point) {
   double sum = 0;

@@ -100,6 +100,12 @@ class MeshOracle : public Oracle {
   double diagonal_;
 };
 
+// What lies nearer before a perspective eye counts as behind it; of the scene's diagonal.
+inline constexpr double kNearShare = 1e-10;
+
+// The tolerance that the program declares for double input, in model units.
+double declaredTolerance(const Box& bounds);
+
 // Bounds of all leaves, used or not, in world units.
 Box boundsOf(const csg::Model& model);
 

@@ -6,6 +6,9 @@
 
 #include <CLI/CLI.hpp>
 #include <sys/resource.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "apps/command/outputs.h"
 #include "apps/command/parse_values.h"
@@ -17,6 +20,7 @@ namespace {
 
 constexpr int kMaxThreads = 1024;
 constexpr int kMaxSamples = 256;         // per pixel; 8 bits of a channel show no more
+constexpr int kMostBufferLength = 1024;   // fragments: 8 KB a pixel
 constexpr int kMaxFrames = 1000000;
 
 // An option whose text goes through one of our own parsers.
@@ -25,13 +29,14 @@ CLI::Option* addParsed(CLI::App& command, const std::string& name, const std::st
   return command.add_option_function<std::string>(name, std::move(parse), help)->type_name(valueName);
 }
 
-void addWhole(CLI::App& command, const std::string& name, int& value, int least, int most, const std::string& help) {
+template <class Number>
+void addWhole(CLI::App& command, const std::string& name, Number& value, int least, int most, const std::string& help) {
   addParsed(command, name, "N", help, [&value, name, least, most](const std::string& text) {
     const double number = parseNumber(text, name);
     if (number < least || number > most || number != static_cast<int>(number)) {
       failUsage("{} takes a whole number from {} to {}, not {}", name, least, most, text);
     }
-    value = static_cast<int>(number);
+    value = static_cast<Number>(number);
   });
 }
 
@@ -79,12 +84,17 @@ void addCommonOptions(CLI::App& command, CommonOptions& options) {
   addCameraOptions(command, options.camera);
   addWord(command, "--backend", options.backend, "cpu|gl|auto", "where to draw (auto)");
   addParsed(command, "--method", "NAME", "how fragments are ordered: see copeel methods (auto)", [&options](const std::string& text) {
-    if (text != "auto" && !findMethod(text)) failUsage("no method '{}' (see copeel methods)", text);
-    options.method = text;
+    options.method = parseMethod(text, options.methodOptions);
   });
+  addWhole(command, "--buffer-length", options.methodOptions.k, 1, kMostBufferLength, "fragments in the buffers of kb, k-plus, f2b-fab and their like (8)");
+  addParsed(command, "--depth-source", "planes|hardware", "of the gl back end: exact for each plane, or the rasterizer's, as in the papers (planes)",
+            [&options](const std::string& text) {
+              if (text != "planes" && text != "hardware") failUsage("--depth-source takes one of planes|hardware, not '{}'", text);
+              options.methodOptions.hardwareDepth = text == "hardware";
+            });
   addWhole(command, "--threads", options.threads, 1, kMaxThreads, "how many threads (all cores)");
   addParsed(command, "--memory", "BYTES", "the most data memory, such as 512M or 2G; where it is not enough, exit code 3",
-            [&options](const std::string& text) { options.memoryBytes = parseBytes(text, "--memory"); });
+            [&options](const std::string& text) { options.memoryBytes = options.methodOptions.memoryBytes = parseBytes(text, "--memory"); });
   addWhole(command, "--samples", options.samples, 1, kMaxSamples, "samples a pixel, for smooth edges (1)");
   addParsed(command, "--coplanar-tolerance", "LENGTH", "faces closer than this are one face, in model units (by the input's precision)",
             [&options](const std::string& text) {
@@ -110,12 +120,13 @@ std::string pictureFile(const CommonOptions& options, const std::string& input) 
   return options.output;
 }
 
-void checkBackend(const CommonOptions& options) {
-  if (options.backend == "gl") failMachine("the gl back end is not built in this version; use --backend cpu or auto");
-}
-
 void limitMemory(std::uint64_t bytes) {
   if (bytes == 0) return;
+#ifdef __GLIBC__
+  // What the heap holds in reserve (apps/copeel/heap.h) would be beyond the limit's reach.
+  mallopt(M_TOP_PAD, 0);
+  malloc_trim(0);
+#endif
   struct rlimit limit = {};
   const bool known = getrlimit(RLIMIT_DATA, &limit) == 0;
   limit.rlim_cur = std::min<rlim_t>(bytes, limit.rlim_max);

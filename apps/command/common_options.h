@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "core/methods/draw.h"
 #include "core/scene/camera.h"
 
 namespace CLI {
@@ -19,6 +20,7 @@ struct CommonOptions {
   std::string output;                                 // -o
   std::string backend = "auto";
   std::string method = "auto";
+  MethodOptions methodOptions;
   int threads = 0;                                    // 0: all cores
   std::uint64_t memoryBytes = 0;                      // 0: no limit
   int samples = 1;                                    // per pixel
@@ -35,9 +37,6 @@ void addCommonOptions(CLI::App& command, CommonOptions& options);
 
 // Where the picture goes: -o, or the first input's name in the current folder with .png. Throws Error{Usage} on another ending.
 std::string pictureFile(const CommonOptions& options, const std::string& input);
-
-// Throws Error{Machine} for the back end that this version does not have.
-void checkBackend(const CommonOptions& options);
 
 // Holds the data memory of the process, and that of each program it runs, to the limit from now on: past it, allocations fail and the
 // program ends with exit code 3. Called before anything is read.

@@ -50,8 +50,7 @@ void applyLook(MeshArgument& mesh, std::string_view entry) {
   if (name == "color" || name == "colour") {
     mesh.color = parseColor(value, "color");
   } else if (name == "alpha") {
-    mesh.alpha = parseNumber(value, "alpha");
-    if (!(*mesh.alpha >= 0 && *mesh.alpha <= 1)) failUsage("alpha must be 0 to 1, not {}", value);
+    mesh.alpha = parseAlpha(value, "alpha");
   } else {
     failUsage("a mesh takes color=#rrggbb and alpha=NUMBER, not '{}'", entry);
   }
@@ -96,6 +95,12 @@ std::array<double, 3> parseColor(std::string_view text, std::string_view option)
   }
   if (!good) failUsage("{} takes a colour as '#rrggbb', not '{}'", option, text);
   return color;
+}
+
+double parseAlpha(std::string_view text, std::string_view option) {
+  const double alpha = parseNumber(text, option);
+  if (!(alpha >= 0 && alpha <= 1)) failUsage("{} must be 0 to 1, not {}", option, text);
+  return alpha;
 }
 
 std::uint64_t parseBytes(std::string_view text, std::string_view option) {

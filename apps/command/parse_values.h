@@ -22,6 +22,9 @@ std::array<int, 2> parseImageSize(std::string_view text);
 // "#rrggbb" or "#rgb", 0 … 255 each.
 std::array<double, 3> parseColor(std::string_view text, std::string_view option);
 
+// 0 … 1.
+double parseAlpha(std::string_view text, std::string_view option);
+
 // "1500000", "64K", "2.5G": powers of 1024.
 std::uint64_t parseBytes(std::string_view text, std::string_view option);
 

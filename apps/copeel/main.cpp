@@ -15,6 +15,7 @@
 #include "apps/copeel/heap.h"
 #include "apps/copeel/methods_command.h"
 #include "apps/csg/command.h"
+#include "apps/oit/command.h"
 #include "core/error.h"
 #include "core/output_file.h"
 
@@ -23,7 +24,7 @@ namespace {
 using copeel::ExitCode;
 
 constexpr std::pair<const char*, const char*> kNotBuilt[] = {
-    {"oit", "transparent meshes"},          {"wireframe", "line drawings without hidden lines"},
+    {"wireframe", "line drawings without hidden lines"},
     {"collide", "where meshes cross"},      {"coplanar", "which faces lie on each other"},
     {"view", "a window to look around in"}, {"validate", "compares with exact references"},
     {"bench", "speed against error of all methods"},
@@ -31,6 +32,7 @@ constexpr std::pair<const char*, const char*> kNotBuilt[] = {
 
 void addCommands(CLI::App& program) {
   copeel::csg::addCommand(program);
+  copeel::oit::addCommand(program);
   copeel::addMethodsCommand(program);
   for (const auto& [name, what] : kNotBuilt) {
     CLI::App* command = program.add_subcommand(name, fmt::format("{} (not built in this version)", what));
@@ -53,7 +55,7 @@ int finish() {
 }
 
 int run(int argc, char** argv) {
-  CLI::App program{"Pictures of what overlaps: CSG models whose coincident faces are right.", "copeel"};
+  CLI::App program{"Pictures of what overlaps: CSG models and transparent meshes whose coincident faces are right.", "copeel"};
   program.set_version_flag("--version", "copeel " COPEEL_VERSION);
   program.require_subcommand(1);
   addCommands(program);

@@ -7,6 +7,7 @@
 #include "apps/command/parse_values.h"
 #include "apps/csg/color_schemes.h"
 #include "core/error.h"
+#include "core/methods/method.h"
 
 namespace copeel::csg {
 namespace {
@@ -87,7 +88,9 @@ RenderOptions renderOptions(const CommandOptions& options) {
   render.coplanarTolerance = common.coplanarTolerance;
   render.threads = common.threads;
   render.samples = common.samples;
-  if (common.method != "auto") render.method = common.method;
+  const MethodInfo& method = chooseMethod(common.backend, common.method);
+  render.method = method.name;
+  render.methodOptions = common.methodOptions;
   render.wantDepth = !common.depthFile.empty();
   render.wantIds = !common.idsFile.empty();
   return render;

@@ -2,15 +2,12 @@
 #include "apps/csg/look.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 namespace copeel::csg {
 namespace {
 
-constexpr double kAmbient = 0.2;
 // openscad's colours of what carries % and #, 0 … 255 and alpha.
 const glm::dvec4 kBackgroundPart(180, 180, 180, 128.0 / 255);
 const glm::dvec4 kHighlightPart(255, 81, 81, 128.0 / 255);
@@ -33,16 +30,6 @@ Look::Look(const Model& model, const GateForest& forest, const RenderOptions& op
   for (std::size_t leaf = 0; leaf < forest.cuts.size(); ++leaf) {
     const glm::dvec4 plain(toVector(forest.cuts[leaf] ? options.scheme.cutout : options.scheme.front), 1);
     leafColors_.push_back(leaf < model.leaves.size() ? painted(model.leaves[leaf], plain) : plain);
-  }
-}
-
-void Look::setView(const PlaneClasses& planes, const View& view) {
-  const glm::dvec3 right = glm::normalize(view.right), up = -glm::normalize(view.down);
-  const glm::dvec3 light = (-right + up - view.forward) / std::sqrt(3.0);
-  shade_.clear();
-  for (const PlaneClass& planeClass : planes.classes()) {
-    const double lit = kAmbient + std::abs(glm::dot(planeClass.normal, light));
-    shade_.push_back(static_cast<float>(options_.lit ? lit : 1.0));
   }
 }
 

@@ -8,7 +8,7 @@
 #include <glm/vec4.hpp>
 
 #include "apps/csg/csg_fold.h"
-#include "core/coplanarity/plane_classes.h"
+#include "core/fold/over.h"
 
 namespace copeel::csg {
 
@@ -16,7 +16,7 @@ class Look {
  public:
   Look(const Model& model, const GateForest& forest, const RenderOptions& options);
 
-  void setView(const PlaneClasses& planes, const View& view);   // shades each plane class once
+  void setView(const PlaneClasses& planes, const View& view) { shade_ = fold::shadesOf(planes, view, options_.lit); }
   double alpha(std::uint32_t leaf, std::uint32_t part) const { return colorOf(leaf, part).a; }
   glm::dvec3 blend(std::span<const Surface> frontToBack) const;   // 0 … 255, over the background
 

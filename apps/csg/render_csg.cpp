@@ -7,15 +7,17 @@
 #include <limits>
 #include <unordered_map>
 
-#include <sys/resource.h>
-
 #include "apps/csg/bounds.h"
+#if COPEEL_GL
+#include "apps/csg/gl_pass.h"
+#endif
 #include "apps/csg/look.h"
 #include "core/cpu/render_nearest.h"
 #include "core/cpu/render_tiles.h"
 #include "core/formats/read_mesh.h"
 #include "core/methods/method.h"
 #include "core/parallel.h"
+#include "core/scene/sample_offset.h"
 
 namespace copeel::csg {
 namespace {
@@ -25,11 +27,7 @@ double nowMs() {
   return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
 }
 
-std::uint64_t peakMemoryBytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-}
+double alphaOfLook(const void* look, std::uint32_t leaf, std::uint32_t part) { return static_cast<const Look*>(look)->alpha(leaf, part); }
 
 // A box that reaches from the section plane well past the model; without triangles where that is beside all of it.
 std::shared_ptr<const Mesh> sectionMesh(const Section& section, const Box& bounds) {
@@ -53,17 +51,6 @@ std::shared_ptr<const Mesh> sectionMesh(const Section& section, const Box& bound
   return mesh;
 }
 
-// Spreads samples evenly over the pixel; offsets are multiples of 2^-16, so that pixel coordinates stay exact.
-// Based on: Roberts. The unreasonable effectiveness of quasirandom sequences. 2018 (R2 sequence).
-glm::dvec2 sampleOffset(int index, int count) {
-  if (count == 1) return {0, 0};
-  const auto fraction = [&](double step) {
-    const double x = 0.5 + index * step;
-    return std::floor((x - std::floor(x)) * 65536) / 65536 - 0.5;
-  };
-  return {fraction(0.7548776662466927), fraction(0.5698402909980532)};
-}
-
 }  // namespace
 
 struct Renderer::State {
@@ -77,6 +64,9 @@ struct Renderer::State {
   std::unique_ptr<Look> look;
   std::unordered_map<const Mesh*, bool> closedMeshes;   // found out only where the eye may be inside
   std::unique_ptr<Threads> threads;
+#if COPEEL_GL
+  std::unique_ptr<GlPass> glPass;                       // once a method of the gl back end draws
+#endif
   Stats stats;
 
   State(const Model& m, const RenderOptions& o) : model(m), options(o) {}
@@ -84,6 +74,7 @@ struct Renderer::State {
   std::vector<std::uint8_t> knownClosed;                // per object, found out for small meshes
   void findSmallClosedMeshes();
   std::vector<std::uint8_t> closedObjects(const std::vector<std::uint8_t>& reachesEye);
+  EyeWinding windingAtEye(const View& view, const std::vector<std::uint8_t>& reachesEye);
   void drawPass(const View& view, PixelSink& sink);
   void drawSamples(const View& view, Image<Rgb8>& color);
   void drawTiles(const cpu::Frame& frame, PixelSink& sink);
@@ -109,6 +100,7 @@ void Renderer::State::prepare() {
   look = std::make_unique<Look>(model, forest, options);
   findSmallClosedMeshes();
   stats.method = options.method;
+  stats.backend = findMethod(options.method)->backend;
   stats.triangles = scene.primitiveCount();
   stats.leaves = model.leaves.size();
   stats.planeClasses = planes.classes().size();
@@ -143,19 +135,17 @@ std::vector<std::uint8_t> Renderer::State::closedObjects(const std::vector<std::
   return closed;
 }
 
+EyeWinding Renderer::State::windingAtEye(const View& view, const std::vector<std::uint8_t>& reaches) {
+  if (std::find(reaches.begin(), reaches.end(), 1) == reaches.end()) return {};
+  return eyeWinding(scene, view.eye, reaches, closedObjects(reaches));
+}
+
 void Renderer::State::drawTiles(const cpu::Frame& frame, PixelSink& sink) {
-  EyeWinding eye;
-  const std::vector<std::uint8_t>& reaches = frame.projection.reachesEye;
-  if (std::find(reaches.begin(), reaches.end(), 1) != reaches.end()) {
-    eye = eyeWinding(scene, frame.view.eye, reaches, closedObjects(reaches));
-  }
-  const auto alpha = [](const void* context, std::uint32_t leaf, std::uint32_t part) {
-    return static_cast<const Look*>(context)->alpha(leaf, part);
-  };
-  cpu::TileOptions tileOptions;
+  const EyeWinding eye = windingAtEye(frame.view, frame.projection.reachesEye);
+    cpu::TileOptions tileOptions;
   tileOptions.decideAllExactly = options.decideAllExactly;
   const cpu::TileCounts counts = cpu::renderTiles(
-      frame, tileOptions, [&] { return CsgFold(forest, eye, knownClosed, options.inside, alpha, look.get(), sink); });
+      frame, tileOptions, [&] { return CsgFold(forest, eye, knownClosed, options.inside, alphaOfLook, look.get(), sink); });
   stats.fragments = stats.fragmentsCaptured = counts.fragments;
   stats.depthComplexityMax = counts.depthComplexityMax;
   stats.coveredPixels = counts.coveredPixels;
@@ -165,6 +155,14 @@ void Renderer::State::drawTiles(const cpu::Frame& frame, PixelSink& sink) {
 
 void Renderer::State::drawPass(const View& view, PixelSink& sink) {
   look->setView(planes, view);
+#if COPEEL_GL
+  if (const MethodInfo& method = *findMethod(options.method); method.draw) {
+    if (!glPass) glPass = std::make_unique<GlPass>(scene, planes, forest, static_cast<std::uint32_t>(model.background.size()), options.inside, options.methodOptions);
+    const EyeWinding eye = windingAtEye(view, cpu::project(scene, view).reachesEye);
+    return glPass->draw(view, eye, alphaOfLook, look.get(), method, sink, stats);
+  }
+#endif
+  ++stats.passes;
   const cpu::Frame frame(scene, planes, view);
   if (options.method == "zbuffer") {
     cpu::renderNearest(frame, [&](int x, int y, const cpu::TileSlot* slot, const cpu::Tile& tile) {
@@ -215,21 +213,10 @@ class FrameSink : public PixelSink {
     if (solid == surfaces.end()) return;
     if (shown_) shown_->at(x, y) = {solid->leaf, solid->planeClass};
     if (!frame_.ids.pixels.empty()) frame_.ids.at(x, y) = static_cast<std::uint16_t>(std::min<std::uint32_t>(solid->leaf + 1, 65535));
-    if (!frame_.depth.pixels.empty()) frame_.depth.at(x, y) = depthAt(solid->planeClass, x, y);
-  }
-  static Rgb8 toRgb8(const glm::dvec3& color) {
-    const auto byte = [](double v) { return static_cast<std::uint8_t>(std::clamp(v, 0.0, 255.0) + 0.5); };
-    return {byte(color.r), byte(color.g), byte(color.b)};
+    if (!frame_.depth.pixels.empty()) frame_.depth.at(x, y) = static_cast<float>(distanceAt(depths_[solid->planeClass], *view_, x, y));
   }
 
  private:
-  float depthAt(std::uint32_t planeClass, int x, int y) const {
-    const DepthPlane& plane = depths_[planeClass];
-    const double u = x + 0.5 + view_->offset.x - view_->width * 0.5, v = y + 0.5 + view_->offset.y - view_->height * 0.5;
-    const double s = std::clamp(plane.a * u + (plane.b * v + plane.c), double(plane.lo), double(plane.hi));
-    return static_cast<float>(distanceOf(s, *view_));
-  }
-
   Frame& frame_;
   const Look& look_;
   Image<glm::vec3>* sum_;
@@ -252,7 +239,7 @@ void Renderer::State::drawSamples(const View& view, Image<Rgb8>& color) {
   }
   const std::array<double, 3>& b = options.scheme.background;
   for (std::size_t i = 0; i < sum.pixels.size(); ++i) {
-    color.pixels[i] = FrameSink::toRgb8(glm::dvec3(b[0], b[1], b[2]) + glm::dvec3(sum.pixels[i]) / double(options.samples));
+    color.pixels[i] = toRgb8(glm::dvec3(b[0], b[1], b[2]) + glm::dvec3(sum.pixels[i]) / double(options.samples));
   }
 }
 
@@ -267,12 +254,19 @@ Renderer::~Renderer() = default;
 const Box& Renderer::bounds() const { return state_->bounds; }
 const Stats& Renderer::stats() const { return state_->stats; }
 
+void Renderer::measure() {
+#if COPEEL_GL
+  if (state_->glPass) state_->glPass->measure(*findMethod(state_->options.method), state_->stats);
+#endif
+}
+
 Frame Renderer::draw(const View& view) {
   State& state = *state_;
   const RenderOptions& options = state.options;
+  state.stats.passes = 0;
   Frame frame;
   const std::array<double, 3>& b = options.scheme.background;
-  frame.color = Image<Rgb8>(view.width, view.height, FrameSink::toRgb8({b[0], b[1], b[2]}));
+  frame.color = Image<Rgb8>(view.width, view.height, toRgb8({b[0], b[1], b[2]}));
   if (options.wantDepth) frame.depth = Image<float>(view.width, view.height, std::numeric_limits<float>::infinity());
   if (options.wantIds) frame.ids = Image<std::uint16_t>(view.width, view.height);
   Image<Shown> shown;
@@ -289,7 +283,6 @@ Frame Renderer::draw(const View& view) {
   if (options.edges) drawEdges(shown, frame.color);
   state.stats.width = view.width;
   state.stats.height = view.height;
-  state.stats.passes = std::max(options.samples, 1);
   state.stats.memoryBytes = peakMemoryBytes();
   return frame;
 }

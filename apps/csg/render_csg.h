@@ -1,4 +1,4 @@
-// A CSG model to an image on the cpu.
+// A CSG model to an image.
 //
 // Prepare once (plane classes, winding at the eye is per view), then draw as many frames as wanted.
 #pragma once
@@ -12,6 +12,7 @@
 
 #include "apps/csg/csg_model.h"
 #include "core/image/image.h"
+#include "core/methods/draw.h"
 #include "core/metrics/stats.h"
 #include "core/scene/box.h"
 #include "core/scene/view.h"
@@ -42,7 +43,8 @@ struct RenderOptions {
   double coplanarTolerance = 0;    // model units; 0: from the scene (see core/coplanarity/plane_classes.h)
   int threads = 0;                 // 0: all cores
   int samples = 1;                 // anti-aliasing samples per pixel
-  std::string method = "tile";
+  std::string method = "tile";     // of either back end, see core/methods/method.h
+  MethodOptions methodOptions;
   bool wantDepth = false;
   bool wantIds = false;
   bool decideAllExactly = false;   // every order by the exact path; for tests, slow
@@ -63,6 +65,7 @@ class Renderer {
   const Box& bounds() const;
   Frame draw(const View& view);
   const Stats& stats() const;      // of preparation and the last frame
+  void measure();                  // counts the last frame's fragments, where drawing it did not (the gl back end)
 
  private:
   struct State;

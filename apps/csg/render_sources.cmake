@@ -8,3 +8,6 @@ target_sources(copeel_csg PRIVATE
   render_csg.cpp
 )
 target_link_libraries(copeel_csg PRIVATE TBB::tbb)
+if(COPEEL_GL)
+  target_sources(copeel_csg PRIVATE gl_pass.cpp)
+endif()

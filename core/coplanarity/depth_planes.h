@@ -6,6 +6,7 @@
 // certain when two values differ by more than the sum of their bounds. 40 bytes a class.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/coplanarity/plane_classes.h"
@@ -26,5 +27,11 @@ std::vector<DepthPlane> depthPlanes(const Scene& scene, const PlaneClasses& plan
 
 // Distance along the view axis from the order value.
 inline double distanceOf(double s, const View& view) { return view.perspective ? -1.0 / s : s; }
+
+// Distance along the view axis of a class at the sample of pixel (x, y).
+inline double distanceAt(const DepthPlane& plane, const View& view, int x, int y) {
+  const double u = x + 0.5 + view.offset.x - view.width * 0.5, v = y + 0.5 + view.offset.y - view.height * 0.5;
+  return distanceOf(std::clamp(plane.a * u + (plane.b * v + plane.c), double(plane.lo), double(plane.hi)), view);
+}
 
 }  // namespace copeel

@@ -50,8 +50,9 @@ class TileRenderer {
     tile_.setUp(frame_);
     const double farthest = fold_.narrowTile(tile_);
     if (farthest == -std::numeric_limits<double>::infinity()) return;
-    // Where a single fragment may be enough, or few lie upon each other, narrowing is not worth its time.
-    narrows_ = fold_.leastFragments() >= 2 && tile_.layers() >= kNarrowFrom;
+    // Where a single fragment may be enough, or never any, or few lie upon each other, narrowing is not worth its time.
+    const double least = fold_.leastFragments();
+    narrows_ = least >= 2 && least < std::numeric_limits<double>::infinity() && tile_.layers() >= kNarrowFrom;
     finished_ = narrows_ ? emptyBlocks() : 0;
     if (finished_ == kAllBlocks) return;
     tile_.finish(farthest, options_.decideAllExactly);

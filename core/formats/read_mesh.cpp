@@ -13,30 +13,32 @@
 namespace copeel {
 namespace {
 
-Mesh readAny(const Source& source) {
+Mesh readAny(const Source& source, const ReadMeshOptions& options) {
   if (source.size() == 0) source.fail("the file is empty");
   // Text in UTF-8 may begin with a byte order mark.
   const std::string_view bytes(source.data(), source.size());
-  if (bytes.starts_with("\xef\xbb\xbf")) return readAny(Source(std::span(bytes).subspan(3), source.name()));
-  if (looksLikePly(source)) return readPly(source);
-  if (looksLikeStl(source)) return readStl(source);
-  if (looksLikeOff(source)) return readOff(source);
-  if (looksLikeObj(source)) return readObj(source);
+  if (bytes.starts_with("\xef\xbb\xbf")) return readAny(Source(std::span(bytes).subspan(3), source.name()), options);
+  if (looksLikePly(source)) return readPly(source, options);
+  if (looksLikeStl(source)) return readStl(source, options);
+  if (looksLikeOff(source)) return readOff(source, options);
+  if (looksLikeObj(source)) return readObj(source, options);
   source.fail("not a mesh in OBJ, OFF, PLY or STL form, or a truncated binary STL ({} bytes)", source.size());
 }
 
 }  // namespace
 
-Mesh readMesh(const std::string& path) {
+Mesh readMesh(const std::string& path, const ReadMeshOptions& options) {
   // A file that does not fit is the machine's limit, not a fault of the file.
   try {
     const InputFile file(path);
-    return readAny(file.source());
+    return readAny(file.source(), options);
   } catch (const std::bad_alloc&) {
     failMachine("{}: not enough memory", path);
   }
 }
 
-Mesh readMeshFromMemory(std::span<const char> bytes, const std::string& name) { return readAny(Source(bytes, name)); }
+Mesh readMeshFromMemory(std::span<const char> bytes, const std::string& name, const ReadMeshOptions& options) {
+  return readAny(Source(bytes, name), options);
+}
 
 }  // namespace copeel

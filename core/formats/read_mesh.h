@@ -5,15 +5,24 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/scene/mesh.h"
 
 namespace copeel {
 
+// What is wanted beside the geometry.
+struct ReadMeshOptions {
+  // Keep the colours of the file (Mesh::colors): OBJ's materials (Kd, d or Tr, from the .mtl beside it), PLY's of faces or, as the mean of a
+  // face's corners, of vertices.
+  bool colors = false;
+  std::vector<std::string>* warnings = nullptr;   // receives a line for each colour that could not be had, such as a missing .mtl
+};
+
 // Throws Error{Input} with one line naming file, line (or byte) and cause.
-Mesh readMesh(const std::string& path);
-// The same of bytes in memory; the name is for messages.
-Mesh readMeshFromMemory(std::span<const char> bytes, const std::string& name);
+Mesh readMesh(const std::string& path, const ReadMeshOptions& options = {});
+// The same of bytes in memory; the name is for messages, and for where a .mtl lies.
+Mesh readMeshFromMemory(std::span<const char> bytes, const std::string& name, const ReadMeshOptions& options = {});
 
 // What is notable about a mesh, found and reported, never repaired. Counts are exact.
 struct MeshStatus {

@@ -1,10 +1,14 @@
-// OBJ (Wavefront): v and f lines make the mesh; what only looks or names (normals, materials, groups) and what has no area (points, lines) is
-// passed over. Curved surfaces would be lost in silence and are an error, as is any unknown keyword.
+// OBJ (Wavefront): v and f lines make the mesh, and where wanted the materials its colours; what else only looks or names (normals, groups) and
+// what has no area (points, lines) is passed over. Curved surfaces would be lost in silence and are an error, as is any unknown keyword.
 #include <algorithm>
 #include <array>
+#include <set>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/formats/read_mtl.h"
 #include "core/formats/readers.h"
 #include "core/formats/soup_builder.h"
 #include "core/formats/text_cursor.h"
@@ -26,7 +30,8 @@ bool isOneOf(const std::array<std::string_view, n>& words, std::string_view word
 
 class ObjReader {
  public:
-  explicit ObjReader(const Source& source) : cursor_(source, 0, '#'), builder_(source, SoupBuilder::Place::Line, 1) {}
+  ObjReader(const Source& source, const ReadMeshOptions& options)
+      : source_(source), options_(options), cursor_(source, 0, '#'), builder_(source, SoupBuilder::Place::Line, 1) {}
 
   Mesh read() {
     while (!cursor_.atEnd()) readLine();
@@ -40,12 +45,50 @@ class ObjReader {
       readVertex();
     } else if (keyword == "f" || keyword == "fo") {
       readFace();
+    } else if (options_.colors && keyword == "mtllib") {
+      readLibrary();
+    } else if (options_.colors && keyword == "usemtl") {
+      useMaterial();
     } else if (isOneOf(kNotRead, keyword)) {
       cursor_.fail("curved surfaces and calls are not read ({})", keyword);
     } else if (!isOneOf(kPassedOver, keyword)) {
       cursor_.fail("{} is no OBJ keyword", quoted(keyword));
     }
     skipLogicalLine();
+  }
+
+  template <class... Args>
+  void warn(std::size_t place, fmt::format_string<Args...> format, Args&&... args) {
+    if (options_.warnings) {
+      options_.warnings->push_back(fmt::format("{}:{}: {}", source_.name(), source_.lineOf(place), fmt::format(format, std::forward<Args>(args)...)));
+    }
+  }
+
+  // "mtllib a.mtl b.mtl" names two files, unless there is one of that name.
+  void readLibrary() {
+    const std::size_t place = cursor_.place();
+    const std::string names = restAsName(cursor_);
+    lineTaken_ = true;
+    if (addMaterials(source_.name(), names, materials_)) return;
+    std::istringstream list(names);
+    for (std::string name; list >> name;) {
+      if (addMaterials(source_.name(), name, materials_)) continue;
+      warn(place, "no material library {}: its colours are missing", Source({}, name).name());
+      librariesMissing_ = true;
+    }
+  }
+
+  void useMaterial() {
+    const std::size_t place = cursor_.place();
+    const std::string name = restAsName(cursor_);
+    lineTaken_ = true;
+    const auto found = materials_.find(name);
+    if (found != materials_.end()) {
+      builder_.setFaceColor(found->second);
+    } else {
+      builder_.setFaceColor(glm::vec4(Mesh::kNotGiven));
+      if (!librariesMissing_ && unknown_.insert(name).second) warn(place, "no material {} in the libraries", Source({}, name).name());
+    }
   }
 
   // The next token of the line, going on where a backslash ends the line; empty at its end.
@@ -60,6 +103,7 @@ class ObjReader {
   }
 
   void skipLogicalLine() {
+    if (std::exchange(lineTaken_, false)) return;
     for (;;) {
       const std::string_view rest = cursor_.restOfLine();
       if (rest.empty() || rest.back() != '\\') return;
@@ -98,9 +142,15 @@ class ObjReader {
     builder_.addFace(corners_, place);
   }
 
+  const Source& source_;
+  const ReadMeshOptions& options_;
   TextCursor cursor_;
   SoupBuilder builder_;
   std::vector<std::uint32_t> corners_;
+  bool lineTaken_ = false;            // with its end
+  Materials materials_;
+  bool librariesMissing_ = false;
+  std::set<std::string> unknown_;     // materials warned of
 };
 
 }  // namespace
@@ -116,6 +166,6 @@ bool looksLikeObj(const Source& source) {
   return word == "v" || word == "f" || word == "fo" || isOneOf(kPassedOver, word) || isOneOf(kNotRead, word);
 }
 
-Mesh readObj(const Source& source) { return ObjReader(source).read(); }
+Mesh readObj(const Source& source, const ReadMeshOptions& options) { return ObjReader(source, options).read(); }
 
 }  // namespace copeel

@@ -69,7 +69,7 @@ void readFace(TextCursor& cursor, SoupBuilder& builder, std::vector<std::uint32_
 
 bool looksLikeOff(const Source& source) { return afterKeyword(TextCursor(source, 0, '#').token()).has_value(); }
 
-Mesh readOff(const Source& source) {
+Mesh readOff(const Source& source, const ReadMeshOptions&) {
   TextCursor cursor(source, 0, '#');
   const Counts counts = readHeader(cursor);
   SoupBuilder builder(source, SoupBuilder::Place::Line);

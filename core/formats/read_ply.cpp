@@ -1,5 +1,5 @@
-// PLY: the header says how values lie; vertices (x, y, z), faces (vertex_indices or vertex_index) and triangle strips are taken, all other
-// elements and properties are passed over. One reader for all encodings, over a source of values that is either text or bytes.
+// PLY: the header says how values lie; vertices (x, y, z), faces (vertex_indices or vertex_index), triangle strips and, where wanted, the colours of
+// both (red, green, blue, alpha, or with diffuse_ before them) are taken, all other elements and properties are passed over. One reader for all encodings, over a source of values that is either text or bytes.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -21,6 +21,45 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "little-endian values are read as they lie in memory");
 
+// Which channel (0 … 3 for red, green, blue, alpha) each property of an element holds, and kNoChannel for the others.
+class ColorChannels {
+ public:
+  static constexpr int kNoChannel = -1;
+
+  ColorChannels(const PlyElement& element, bool wanted) : element_(element), channels_(element.properties.size(), kNoChannel) {
+    if (!wanted) return;
+    for (const std::string prefix : {"", "diffuse_"}) {
+      if (any_) break;
+      const std::array<std::size_t, 4> at = {element.find(prefix + "red"), element.find(prefix + "green"), element.find(prefix + "blue"),
+                                             element.find(prefix.empty() ? "alpha" : prefix + "alpha")};
+      const auto isNumber = [&](std::size_t i) { return i < element.properties.size() && !element.properties[i].isList; };
+      if (!isNumber(at[0]) || !isNumber(at[1]) || !isNumber(at[2])) continue;
+      any_ = true;
+      for (int c = 0; c < 4; ++c) {
+        if (isNumber(at[c])) channels_[at[c]] = c;
+      }
+    }
+  }
+
+  bool any() const { return any_; }
+  int of(std::size_t property) const { return channels_[property]; }
+  // Whole numbers fill the range of their type, others run from 0 to 1.
+  void store(std::size_t property, double value, glm::vec4& color) const {
+    const PlyType type = element_.properties[property].type;
+    const double full = isInteger(type) ? std::exp2(8.0 * sizeBytes(type) - isSigned(type)) - 1 : 1;
+    const double share = value > 0 ? std::min(value / full, 1.0) : 0.0;   // not a number is 0
+    const int channel = channels_[property];
+    color[channel] = static_cast<float>(channel < 3 ? 255 * share : share);
+  }
+
+ private:
+  static bool isSigned(PlyType type) { return type == PlyType::Int8 || type == PlyType::Int16 || type == PlyType::Int32; }
+
+  const PlyElement& element_;
+  std::vector<int> channels_;
+  bool any_ = false;
+};
+
 class AsciiValues {
  public:
   AsciiValues(const Source& source, std::size_t start) : cursor_(source, start) {}
@@ -31,6 +70,7 @@ class AsciiValues {
     return cursor_.place();
   }
   double coordinate(PlyType) { return cursor_.number("a coordinate"); }
+  double color(PlyType) { return cursor_.number("a colour"); }
   std::int64_t integer(PlyType) { return cursor_.integer("an integer"); }
   void skip(PlyType, std::uint64_t count) {
     for (; count > 0; --count) {
@@ -61,6 +101,7 @@ class BinaryValues {
       source_.failAtByte(at_ - sizeBytes(type), "a coordinate is not a finite number: {}", value);
     return value;
   }
+  double color(PlyType type) { return number(type); }
   std::int64_t integer(PlyType type) {
     switch (type) {
       case PlyType::Int8:
@@ -120,8 +161,8 @@ class BinaryValues {
 template <class Values>
 class PlyBody {
  public:
-  PlyBody(const Source& source, const PlyHeader& header, SoupBuilder::Place kind)
-      : header_(header), builder_(source, kind), values_(source, header.bodyStart), sourceBytes_(source.size()) {}
+  PlyBody(const Source& source, const PlyHeader& header, SoupBuilder::Place kind, bool wantsColors)
+      : header_(header), wantsColors_(wantsColors), builder_(source, kind), values_(source, header.bodyStart), sourceBytes_(source.size()) {}
 
   Mesh read() {
     builder_.reserve(possibleCount("vertex"), possibleCount("face"));
@@ -165,16 +206,19 @@ class PlyBody {
       axes[at] = axis;
       if (element.properties[at].type == PlyType::Float32) builder_.setSinglePrecision();
     }
+    const ColorChannels channels(element, wantsColors_);
     for (std::uint64_t i = 0; i < element.count; ++i) {
       glm::dvec4 position(0);
+      glm::vec4 color(Mesh::kNotGiven);
       for (std::size_t k = 0; k < axes.size(); ++k) {
         if (axes[k] < 3) {
           position[axes[k]] = values_.coordinate(element.properties[k].type);
         } else {
-          skip(element.properties[k]);
+          skipOrStore(element, k, channels, color);
         }
       }
       builder_.addVertex(glm::dvec3(position));
+      if (channels.any()) builder_.addVertexColor(color);
     }
   }
 
@@ -184,12 +228,16 @@ class PlyBody {
     if (at == all.size() || !all[at].isList || !isInteger(all[at].type))
       values_.fail("the faces have no list of vertex indices");
     const bool strips = element.name == "tristrips";
+    const ColorChannels channels(element, wantsColors_);
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      skipAll(all.first(at));
+      glm::vec4 color(Mesh::kNotGiven);
+      for (std::size_t k = 0; k < at; ++k) skipOrStore(element, k, channels, color);
       const std::size_t place = values_.place();
       readList(all[at]);
+      // A face is added when all its properties are known.
+      for (std::size_t k = at + 1; k < all.size(); ++k) skipOrStore(element, k, channels, color);
+      if (channels.any()) builder_.setFaceColor(color);
       strips ? addStrips(place) : addFace(place);
-      skipAll(all.subspan(at + 1));
     }
   }
 
@@ -224,6 +272,11 @@ class PlyBody {
     for (const PlyProperty& property : properties) skip(property);
   }
 
+  void skipOrStore(const PlyElement& element, std::size_t k, const ColorChannels& channels, glm::vec4& color) {
+    if (channels.of(k) == ColorChannels::kNoChannel) skip(element.properties[k]);
+    else channels.store(k, values_.color(element.properties[k].type), color);
+  }
+
   void skip(const PlyProperty& property) {
     const std::int64_t count = property.isList ? values_.integer(property.countType) : 1;
     if (count < 0) values_.fail("a list of {} values", count);
@@ -231,6 +284,7 @@ class PlyBody {
   }
 
   const PlyHeader& header_;
+  bool wantsColors_;
   SoupBuilder builder_;
   Values values_;
   std::size_t sourceBytes_;
@@ -242,15 +296,15 @@ class PlyBody {
 
 bool looksLikePly(const Source& source) { return TextCursor(source).token() == "ply"; }
 
-Mesh readPly(const Source& source) {
+Mesh readPly(const Source& source, const ReadMeshOptions& options) {
   const PlyHeader header = readPlyHeader(source);
   switch (header.encoding) {
     case PlyHeader::Encoding::LittleEndian:
-      return PlyBody<BinaryValues<false>>(source, header, SoupBuilder::Place::Byte).read();
+      return PlyBody<BinaryValues<false>>(source, header, SoupBuilder::Place::Byte, options.colors).read();
     case PlyHeader::Encoding::BigEndian:
-      return PlyBody<BinaryValues<true>>(source, header, SoupBuilder::Place::Byte).read();
+      return PlyBody<BinaryValues<true>>(source, header, SoupBuilder::Place::Byte, options.colors).read();
     default:
-      return PlyBody<AsciiValues>(source, header, SoupBuilder::Place::Line).read();
+      return PlyBody<AsciiValues>(source, header, SoupBuilder::Place::Line, options.colors).read();
   }
 }
 

@@ -126,7 +126,7 @@ bool looksLikeStl(const Source& source) {
   return sameWord(TextCursor(source).token(), "solid");
 }
 
-Mesh readStl(const Source& source) {
+Mesh readStl(const Source& source, const ReadMeshOptions&) {
   if (isExactlyBinary(source) || hasZeroByte(source)) return readBinary(source);
   return AsciiStl(source).read();
 }

@@ -8,6 +8,11 @@
 #include "core/formats/polygon.h"
 
 namespace copeel {
+namespace {
+
+std::span<const std::uint32_t> cornersOf(const glm::uvec3& triangle) { return {&triangle.x, 3}; }
+
+}  // namespace
 
 void SoupBuilder::reserve(std::size_t vertices, std::size_t triangles) {
   mesh_.vertices.reserve(vertices);
@@ -20,17 +25,43 @@ void SoupBuilder::addFace(std::span<const std::uint32_t> corners, std::size_t pl
     highestIndex_ = corner;
     highestPlace_ = place;
   }
+  if (corners.size() < 3) return;
   if (corners.size() == 3) {
     mesh_.triangles.emplace_back(corners[0], corners[1], corners[2]);
-  } else if (corners.size() > 3) {
+  } else {
     polygons_.push_back({mesh_.triangles.size(), corners_.size(), corners.size(), place});
     corners_.insert(corners_.end(), corners.begin(), corners.end());
   }
+  if (hasFaceColors_) faceColors_.push_back(faceColor_);
+}
+
+void SoupBuilder::setFaceColor(const glm::vec4& color) {
+  // The faces before the first colour have none.
+  if (!hasFaceColors_) faceColors_.assign(faceCount(), glm::vec4(Mesh::kNotGiven));
+  hasFaceColors_ = true;
+  faceColor_ = color;
+}
+
+// A face's own colour, or the mean of its corners', for each triangle that it was cut into.
+void SoupBuilder::addColors(std::size_t face, std::span<const std::uint32_t> corners, std::size_t triangleCount) {
+  if (!hasColors()) return;
+  glm::vec4 color(0);
+  if (hasFaceColors_) {
+    color = faceColors_[face];
+  } else {
+    for (const std::uint32_t corner : corners) color += vertexColors_[corner] / static_cast<float>(corners.size());
+  }
+  mesh_.colors.insert(mesh_.colors.end(), triangleCount, color);
 }
 
 Mesh SoupBuilder::finish() {
   checkIndices();
-  if (!polygons_.empty()) cutPolygons();
+  vertexColors_.resize(vertexColors_.empty() ? 0 : vertexCount(), glm::vec4(Mesh::kNotGiven));
+  if (!polygons_.empty()) {
+    cutPolygons();
+  } else {
+    for (std::size_t face = 0; face < (hasColors() ? mesh_.triangles.size() : 0); ++face) addColors(face, cornersOf(mesh_.triangles[face]), 1);
+  }
   if (mesh_.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
     source_.fail("{} triangles are more than can be numbered", mesh_.triangles.size());
   }
@@ -51,11 +82,12 @@ void SoupBuilder::cutPolygons() {
   PolygonCutter cutter;
   std::vector<glm::dvec3> positions;
   std::uint32_t facet = 0;
-  std::size_t done = 0;
+  std::size_t done = 0, face = 0;
   const auto copyPlain = [&](std::size_t end) {
     for (; done < end; ++done) {
       mesh_.triangles.push_back(plain[done]);
       mesh_.facets.push_back(facet++);
+      addColors(face++, cornersOf(plain[done]), 1);
     }
   };
   for (const Polygon& polygon : polygons_) {
@@ -72,6 +104,7 @@ void SoupBuilder::cutPolygons() {
       mesh_.triangles.emplace_back(corners[t.x], corners[t.y], corners[t.z]);
       mesh_.facets.push_back(shared ? facet : facet++);
     }
+    addColors(face++, {corners, polygon.cornerCount}, cutter.triangles().size());
     facet += shared;
   }
   copyPlain(plain.size());

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include <glm/vec4.hpp>
+
 #include "core/formats/input_file.h"
 #include "core/scene/mesh.h"
 
@@ -24,6 +26,9 @@ class SoupBuilder {
 
   std::size_t vertexCount() const { return mesh_.vertices.size(); }
   void addVertex(const glm::dvec3& position) { mesh_.vertices.push_back(position); }
+  // Colours as in Mesh::colors. Of the faces from here on; where no face has one, those of the vertices count, given for each vertex or for none.
+  void setFaceColor(const glm::vec4& color);
+  void addVertexColor(const glm::vec4& color) { vertexColors_.push_back(color); }
   // Corners count from 0.
   void addFace(std::span<const std::uint32_t> corners, std::size_t place);
   // A vertex number of the file, already from 0, as an index; fails when it cannot be one.
@@ -51,6 +56,9 @@ class SoupBuilder {
   }
   void checkIndices() const;
   void cutPolygons();
+  std::size_t faceCount() const { return mesh_.triangles.size() + polygons_.size(); }   // before polygons are cut
+  bool hasColors() const { return hasFaceColors_ || !vertexColors_.empty(); }
+  void addColors(std::size_t face, std::span<const std::uint32_t> corners, std::size_t triangleCount);
 
   const Source& source_;
   Place kind_;
@@ -58,6 +66,10 @@ class SoupBuilder {
   Mesh mesh_;
   std::vector<Polygon> polygons_;
   std::vector<std::uint32_t> corners_;
+  bool hasFaceColors_ = false;
+  std::vector<glm::vec4> faceColors_;       // per face of three corners or more, where hasFaceColors_
+  std::vector<glm::vec4> vertexColors_;
+  glm::vec4 faceColor_{Mesh::kNotGiven};
   std::int64_t highestIndex_ = -1;  // of any face; one comparison at the end checks them all
   std::size_t highestPlace_ = 0;
 };

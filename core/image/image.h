@@ -1,9 +1,12 @@
 // Images in memory, upper left pixel first, rows without padding.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 namespace copeel {
 
@@ -23,5 +26,11 @@ struct Rgb8 {
   std::uint8_t r = 0, g = 0, b = 0;
   friend bool operator==(const Rgb8&, const Rgb8&) = default;
 };
+
+// Channels 0 … 255 to the nearest whole number.
+inline Rgb8 toRgb8(const glm::dvec3& color) {
+  const auto byte = [](double v) { return static_cast<std::uint8_t>(std::clamp(v, 0.0, 255.0) + 0.5); };
+  return {byte(color.r), byte(color.g), byte(color.b)};
+}
 
 }  // namespace copeel

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/methods/draw.h"
+
 namespace copeel {
 
 struct MethodInfo {
@@ -16,9 +18,18 @@ struct MethodInfo {
   std::string_view memory;      // bytes, a formula
   std::string_view robustness;  // R_h, a formula
   bool robust;                  // delivers every fragment
+  DrawMethod draw = nullptr;    // of the gl back end
+  std::string_view modifiers = {};   // that it takes: "+cull", "+occupancy", both or none
 };
 
 const std::vector<MethodInfo>& methods();
 const MethodInfo* findMethod(std::string_view name);   // null when there is none of that name
+
+// The name less its modifiers (NAME+occupancy+cull), which are set in `options`. Throws Error{Usage}: no such method, or not one that takes the modifier.
+std::string parseMethod(std::string_view text, MethodOptions& options);
+
+// The method for --backend cpu|gl|auto and --method NAME|auto: by its name, else the back end's all-round one; "auto" is the cpu unless the method
+// is the gl back end's. Throws Error{Usage} when the two do not go together, Error{Machine} when this build has no gl back end.
+const MethodInfo& chooseMethod(std::string_view backend, std::string_view name);
 
 }  // namespace copeel

@@ -2,6 +2,7 @@
 #include "core/metrics/stats.h"
 
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
 namespace copeel {
 
@@ -32,6 +33,12 @@ std::string toJson(const Stats& stats) {
                 {"total", stats.totalMs}};
   // A file name inside may hold any bytes: what is not UTF-8 is replaced, not thrown over.
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::uint64_t peakMemoryBytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;   // Linux counts in KiB
 }
 
 }  // namespace copeel

@@ -31,4 +31,7 @@ struct Stats {
 
 std::string toJson(const Stats& stats);
 
+// The peak resident set of this process.
+std::uint64_t peakMemoryBytes();
+
 }  // namespace copeel

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "core/scene/box.h"
 
@@ -17,6 +18,10 @@ struct Mesh {
   // Facet of each triangle, 0 … facetCount-1, never decreasing; the triangles of a facet lie in one plane by construction (the
   // two halves of a cube's face). Empty: every triangle is a facet of its own.
   std::vector<std::uint32_t> facets;
+  // Of each triangle, 0 … 255 and alpha 0 … 1, where the file gives any and the reader was asked to keep them; else empty. A colour that
+  // a triangle lacks has red kNotGiven, an alpha that it lacks is kNotGiven.
+  std::vector<glm::vec4> colors;
+  static constexpr float kNotGiven = -1;
   bool singlePrecision = false;        // the coordinates were float32 in the file: they agree to a few float ulp only
 
   std::size_t facetCount() const { return facets.empty() ? triangles.size() : std::size_t{facets.back()} + 1; }

@@ -23,10 +23,10 @@ TEST(Regressions, everyReaderAnswersEveryFile) {
   for (const auto& entry : std::filesystem::directory_iterator(COPEEL_REGRESSIONS)) {
     const std::string content = contentOf(entry.path());
     const Source source(content, entry.path().filename().string());
-    for (Mesh (*read)(const Source&) : {readObj, readOff, readPly, readStl}) {
+    for (Mesh (*read)(const Source&, const ReadMeshOptions&) : {readObj, readOff, readPly, readStl}) {
       const auto start = std::chrono::steady_clock::now();
       try {
-        const Mesh mesh = read(source);
+        const Mesh mesh = read(source, {.colors = true});
         for (const glm::uvec3& t : mesh.triangles) ASSERT_LT(std::max({t.x, t.y, t.z}), mesh.vertices.size());
       } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::Input) << entry.path();

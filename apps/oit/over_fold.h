@@ -1,0 +1,148 @@
+// Transparency on the ordered fragments of a pixel, on the cpu: core/fold/over.glsl fed group by group, and where its results go.
+//
+// A slot's colour under the light is computed once a tile; a fragment then costs the blend alone. Of coplanar fragments, the later object lies in
+// front, and within an object the later triangle (DESIGN.md), so a group is blended from its last slot to its first. Alpha 0 is not seen:
+// it hides nothing, has no depth and no id, but counts as a layer. Cost: 16 bytes a slot of the tile.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/cpu/tile.h"
+#include "core/fold/fold.h"
+#include "core/fold/over.h"
+#include "core/image/image.h"
+
+namespace copeel::oit {
+
+inline Rgb8 rgb8Of(const glm::uvec3& levels) {
+  return {static_cast<std::uint8_t>(levels.x), static_cast<std::uint8_t>(levels.y), static_cast<std::uint8_t>(levels.z)};
+}
+
+// What a pixel is found to be.
+struct PixelResult {
+  glm::vec3 color{0};                         // 0 … 255, over the background
+  Rgb8 bytes;
+  const cpu::TileSlot* nearest = nullptr;     // that is seen
+  std::uint32_t layers = 0;                   // fragments
+  std::uint32_t largestGroup = 0;             // fragments at one depth
+};
+
+// Where a pass leaves its pixels; null: not wanted. Images start as what shows where nothing is, and a pixel with fragments is written once.
+struct Targets {
+  Image<Rgb8>* color = nullptr;
+  Image<glm::vec3>* floats = nullptr;
+  Image<float>* depth = nullptr;
+  Image<std::uint16_t>* ids = nullptr;
+  Image<std::uint16_t>* layers = nullptr;
+  Image<std::uint16_t>* coplanar = nullptr;
+
+  bool counts() const { return layers || coplanar; }
+  bool any() const { return color || floats || depth || ids || counts(); }
+
+  void put(int x, int y, const PixelResult& result) const {
+    if (color) color->at(x, y) = result.bytes;
+    if (floats) floats->at(x, y) = result.color;
+    if (layers) layers->at(x, y) = saturated(result.layers);
+    if (coplanar) coplanar->at(x, y) = saturated(result.largestGroup);
+  }
+  void putNearest(int x, int y, std::uint32_t object, double distance) const {
+    if (depth) depth->at(x, y) = static_cast<float>(distance);
+    if (ids) ids->at(x, y) = saturated(object + 1);
+  }
+
+ private:
+  static std::uint16_t saturated(std::uint32_t value) { return static_cast<std::uint16_t>(value < 65535 ? value : 65535); }
+};
+
+class Canvas {
+ public:
+  Canvas(const cpu::Frame& frame, const Targets& targets) : frame_(frame), targets_(targets) {}
+
+  void put(int x, int y, const PixelResult& result, const cpu::Tile& tile) const {
+    targets_.put(x, y, result);
+    if (!result.nearest || !(targets_.depth || targets_.ids)) return;
+    const cpu::TileSlot& slot = *result.nearest;
+    targets_.putNearest(x, y, tile.objects[slot.object].object, targets_.depth ? distanceAt(frame_.depths[slot.planeClass], frame_.view, x, y) : 0);
+  }
+  const Targets& targets() const { return targets_; }
+
+ private:
+  const cpu::Frame& frame_;
+  Targets targets_;
+};
+
+class OverFold {
+ public:
+  // `opaque`: per object, whether any face of it has alpha 1.
+  OverFold(const cpu::Frame& frame, const fold::OverTables& tables, const std::vector<std::uint8_t>& opaque, const glm::vec3& background,
+           const Canvas& canvas)
+      : scene_(frame.scene), tables_(tables), opaque_(opaque), background_(background), canvas_(canvas) {}
+
+  bool beginTile(cpu::Tile& tile);
+  double narrowTile(cpu::Tile& tile);
+  bool mayShow(std::span<const cpu::DepthRange>) const { return true; }
+  cpu::DepthRange window(const PixelStack&) const { return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}; }
+  bool needsWholeStack() const { return false; }
+  // Without an opaque face the fold never has enough, and layers are counted to the last.
+  double leastFragments() const { return mayEnd_ ? 1 : std::numeric_limits<double>::infinity(); }
+
+  void beginPixel(const PixelStack&) {
+    fold::overBegin(state_);
+    result_.nearest = nullptr;
+    result_.layers = result_.largestGroup = 0;
+    groupCount_ = 0;
+    ready_ = false;
+  }
+  void fragment(std::uint32_t slot) {
+    if (groupCount_ == group_.size()) group_.resize(2 * group_.size());
+    group_[groupCount_++] = slot;
+  }
+  bool closeGroup() {
+    const auto count = static_cast<std::uint32_t>(groupCount_);
+    result_.layers += count;
+    if (count > result_.largestGroup) result_.largestGroup = count;
+    for (; groupCount_ > 0; --groupCount_) blend(group_[groupCount_ - 1]);
+    return mayEnd_ && fold::overEnough(state_);
+  }
+  void endPixel(int x, int y) {
+    if (result_.layers == 0) return;
+    if (!ready_) finishResult();
+    canvas_.put(x, y, result_, *tile_);
+  }
+
+  // The z-buffer's pixel, which has one fragment.
+  PixelResult single(const cpu::TileSlot& slot, const cpu::Tile& tile) const;
+
+ private:
+  void blend(std::uint32_t slot) {
+    const glm::vec4& color = colors_[slot];
+    if (!result_.nearest && color.a > 0) result_.nearest = &tile_->slots[slot];
+    fold::overFragment(state_, color);
+  }
+  glm::vec4 colorOf(const cpu::TileSlot& slot, std::uint32_t object) const;
+  void setColor(PixelResult& result, const fold::OverState& state) const;
+  void finishResult();
+
+  const Scene& scene_;
+  const fold::OverTables& tables_;
+  const std::vector<std::uint8_t>& opaque_;
+  glm::vec3 background_;
+  const Canvas& canvas_;
+
+  // Of the tile.
+  const cpu::Tile* tile_ = nullptr;
+  std::vector<glm::vec4> colors_;              // per slot, under the light
+  bool mayEnd_ = false;
+
+  // Of the pixel.
+  fold::OverState state_;
+  PixelResult result_;
+  bool ready_ = false;                         // result_ has its colour
+  std::vector<std::uint32_t> group_ = std::vector<std::uint32_t>(64);   // slots at one depth, ascending
+  std::size_t groupCount_ = 0;
+};
+
+}  // namespace copeel::oit

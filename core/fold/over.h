@@ -1,0 +1,39 @@
+// core/fold/over.glsl as C++, and the tables that both back ends read a fragment's colour from.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/coplanarity/plane_classes.h"
+#include "core/fold/common_glsl.h"
+#include "core/scene/view.h"
+
+namespace copeel::fold {
+
+using glm::clamp, glm::dvec3, glm::min, glm::uvec3, glm::vec3, glm::vec4;
+
+#include "core/fold/over.glsl"
+
+// Where an object's own colours lie: triangle t of it has bases[first + stride · t].
+struct BaseRange {
+  std::uint32_t first = 0;
+  std::uint32_t stride = 0;   // 0: one colour for the object, 1: one a triangle
+};
+
+// As a shader storage buffer takes them: vec4, uvec2 and float arrays without padding. A fragment's colour is
+// overShade(bases[first + stride · triangle], shades[class]).
+struct OverTables {
+  std::vector<vec4> bases;          // 0 … 255, and alpha
+  std::vector<BaseRange> ranges;    // per object
+  std::vector<float> shades;        // per plane class, of one view
+
+  void addObject(const vec4& color);
+  void addObject(std::span<const vec4> colorOfTriangle);
+};
+static_assert(sizeof(vec4) == 16 && sizeof(BaseRange) == 8);
+
+// openscad's light: 0.2 + |n·l| with l = (-1, 1, 1)/√3 in eye space, the same from both sides of a face; 1 where nothing is lit.
+std::vector<float> shadesOf(const PlaneClasses& planes, const View& view, bool lit);
+
+}  // namespace copeel::fold

@@ -1,0 +1,12 @@
+// The passes that every frame has: the fold's states at the beginning, and their results at the end.
+#include "core/gl/frame.glsl"
+#include "core/gl/fold.glsl"
+
+void main() {
+#ifdef PASS_BEGIN
+  foldInitial(COPEEL_FRONT);
+  foldInitial(COPEEL_BACK);
+#else
+  foldFinish();
+#endif
+}

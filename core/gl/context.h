@@ -1,0 +1,27 @@
+// An OpenGL 4.5 core context without a window: EGL on a surfaceless platform (Mesa, llvmpipe where there is no GPU) or on a device (NVIDIA).
+#pragma once
+
+#include <string>
+
+namespace copeel::gl {
+
+class Context {
+ public:
+  Context();    // current on the calling thread from then on; throws Error{Machine}: what is missing, in one line
+  ~Context();
+  Context(const Context&) = delete;
+
+  const std::string& renderer() const { return renderer_; }   // the driver's name of itself
+  bool isSoftware() const { return software_; }               // llvmpipe or the like
+
+ private:
+  void* display_ = nullptr;
+  void* context_ = nullptr;
+  std::string renderer_;
+  bool software_ = false;
+};
+
+// Throws Error{Machine} if the driver has found fault with anything since the last call; `doing` says in what.
+void checkErrors(const char* doing);
+
+}  // namespace copeel::gl

@@ -1,0 +1,18 @@
+// The fold of a pixel on the device; the define FOLD names its file. A fold defines, for the pixel the invocation stands on:
+//
+//   void foldInitial(uint side)       its state at the beginning
+//   void foldLoad(uint side)          the state from memory; COPEEL_FRONT meets groups front to back, COPEEL_BACK back to front
+//   void foldFront(uint id)           the next fragment of the open group from its front end: ids without side bit descend (DESIGN.md: later lies in front)
+//   void foldBehind(uint id)          the next one from the group's rear end: ids ascend
+//   bool foldCloseGroup(uint key)     the group is complete; true: enough, nothing behind (COPEEL_BACK: before) it matters
+//   void foldStore(uint side)
+//   void foldFinish()                 joins both sides and writes the pixel's result
+//
+// A front side may be given all its groups in one invocation (A-buffers) or over many passes. A group is never split between the sides.
+layout(std430, binding = COPEEL_BUFFER_FOLD_STATE) buffer FoldStates { uint foldStates[]; };
+layout(std430, binding = COPEEL_BUFFER_FOLD_RESULT) writeonly buffer FoldResults { uint foldResults[]; };
+
+// Where the state of a side starts, words per side given.
+uint foldStateAt(uint side, uint words) { return (pixelIndex() * 2u + side) * words; }
+
+#include FOLD

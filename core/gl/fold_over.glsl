@@ -1,0 +1,125 @@
+// Transparency on the device: core/fold/over.glsl behind the interface of core/gl/fold.glsl. Within a group the later primitive lies in front.
+//
+// Result words: colour (three doubles, premultiplied), transmittance (a double), id + 1 of the nearest primitive that is seen (0: none), fragments,
+// fragments of the largest group. The background comes later.
+#include "core/fold/common_glsl.h"
+#include "core/fold/over.glsl"
+
+struct OverPrimitive {
+  uint planeClass, object;
+};
+layout(std430, binding = COPEEL_BUFFER_PRIMITIVES) readonly buffer OverPrimitives { OverPrimitive overPrimitives[]; };
+layout(std430, binding = COPEEL_BUFFER_FOLD_TABLE) readonly buffer OverBases { vec4 overBases[]; };
+layout(std430, binding = COPEEL_BUFFER_FOLD_TABLE + 1) readonly buffer OverRanges { uvec2 overRanges[]; };   // per object: base = x + y · primitive
+layout(std430, binding = COPEEL_BUFFER_FOLD_TABLE + 2) readonly buffer OverShades { float overShades[]; };
+
+#define OVER_STATE_WORDS 22u
+#define OVER_RESULT_WORDS 11u
+
+uint overSide;
+OverState overMain, overRest;    // the side so far; of the open group what came from its other end
+uint overNearest, overGroupFront, overGroupBehind;   // primitives that are seen, + 1
+uint overLayers, overLargest, overOpen;
+
+void overPut(uint at, OverState state) {
+  for (uint i = 0u; i < 4u; ++i) {
+    uvec2 bits = unpackDouble2x32(i < 3u ? state.color[i] : state.transmittance);
+    foldStates[at + 2u * i] = bits.x;
+    foldStates[at + 2u * i + 1u] = bits.y;
+  }
+}
+
+double overDouble(uint at) { return packDouble2x32(uvec2(foldStates[at], foldStates[at + 1u])); }
+
+OverState overTake(uint at) {
+  OverState state;
+  state.color = dvec3(overDouble(at), overDouble(at + 2u), overDouble(at + 4u));
+  state.transmittance = overDouble(at + 6u);
+  return state;
+}
+
+void foldStore(uint side) {
+  uint at = foldStateAt(side, OVER_STATE_WORDS);
+  overPut(at, overMain);
+  overPut(at + 8u, overRest);
+  foldStates[at + 16u] = overNearest;
+  foldStates[at + 17u] = overGroupFront;
+  foldStates[at + 18u] = overGroupBehind;
+  foldStates[at + 19u] = overLayers;
+  foldStates[at + 20u] = overLargest;
+  foldStates[at + 21u] = overOpen;
+}
+
+void foldLoad(uint side) {
+  uint at = foldStateAt(side, OVER_STATE_WORDS);
+  overSide = side;
+  overMain = overTake(at);
+  overRest = overTake(at + 8u);
+  overNearest = foldStates[at + 16u];
+  overGroupFront = foldStates[at + 17u];
+  overGroupBehind = foldStates[at + 18u];
+  overLayers = foldStates[at + 19u];
+  overLargest = foldStates[at + 20u];
+  overOpen = foldStates[at + 21u];
+}
+
+void foldInitial(uint side) {
+  overBegin(overMain);
+  overBegin(overRest);
+  overNearest = overGroupFront = overGroupBehind = overLayers = overLargest = overOpen = 0u;
+  foldStore(side);
+}
+
+vec4 overColorOf(uint primitive) {
+  OverPrimitive found = overPrimitives[primitive];
+  uvec2 range = overRanges[found.object];
+  return overShade(overBases[range.x + range.y * primitive], overShades[found.planeClass]);
+}
+
+void foldFront(uint id) {
+  uint primitive = id & COPEEL_ID_PRIMITIVE;
+  vec4 color = overColorOf(primitive);
+  if (overSide == COPEEL_FRONT) overFragment(overMain, color);
+  else overFragment(overRest, color);
+  if (overGroupFront == 0u && color.a > 0.0) overGroupFront = primitive + 1u;
+  ++overOpen;
+}
+
+void foldBehind(uint id) {
+  uint primitive = id & COPEEL_ID_PRIMITIVE;
+  vec4 color = overColorOf(primitive);
+  if (overSide == COPEEL_FRONT) overBehind(overRest, color);
+  else overBehind(overMain, color);
+  if (color.a > 0.0) overGroupBehind = primitive + 1u;
+  ++overOpen;
+}
+
+bool foldCloseGroup(uint key) {
+  if (overSide == COPEEL_FRONT) overMain = overJoin(overMain, overRest);
+  else overMain = overJoin(overRest, overMain);
+  overBegin(overRest);
+  uint nearest = overGroupFront != 0u ? overGroupFront : overGroupBehind;
+  if (nearest != 0u && (overSide == COPEEL_BACK || overNearest == 0u)) overNearest = nearest;
+  overGroupFront = overGroupBehind = 0u;
+  overLayers += overOpen;
+  overLargest = max(overLargest, overOpen);
+  overOpen = 0u;
+  return overSide == COPEEL_FRONT && overEnough(overMain) && FOLD_MAY_END != 0;
+}
+
+void foldFinish() {
+  uint at = pixelIndex() * OVER_RESULT_WORDS;
+  foldLoad(COPEEL_BACK);
+  OverState back = overMain;
+  uint nearest = overNearest, layers = overLayers, largest = overLargest;
+  foldLoad(COPEEL_FRONT);
+  OverState whole = overJoin(overMain, back);
+  for (uint i = 0u; i < 4u; ++i) {
+    uvec2 bits = unpackDouble2x32(i < 3u ? whole.color[i] : whole.transmittance);
+    foldResults[at + 2u * i] = bits.x;
+    foldResults[at + 2u * i + 1u] = bits.y;
+  }
+  foldResults[at + 8u] = overNearest != 0u ? overNearest : nearest;
+  foldResults[at + 9u] = overLayers + layers;
+  foldResults[at + 10u] = max(overLargest, largest);
+}

@@ -1,0 +1,104 @@
+// Linked lists of fragments, LISTS of them a pixel one behind the other in depth, each with a node memory of its own: gathered by gatherIntoList(), resolved by the
+// passes that drawLists() draws (core/methods/lists.h).
+//
+// Pixels of few fragments are sorted in registers. The others wait for passes that each merge one level, as drivers end shaders that loop for
+// too long (sort_array.glsl); a level of LIST_MOST nodes takes 3 turns a node.
+#define LIST_MOST 20000u
+#define LIST_DONE 0xFFFFFFFFu    // the head of a pixel that was delivered
+
+struct Node {
+  uint next, key, id;
+};
+layout(std430, binding = COPEEL_BUFFER_METHOD) coherent buffer Heads { uint heads[]; };     // index + 1 of a list's first node, 0: none
+layout(std430, binding = COPEEL_BUFFER_METHOD + 1) buffer Nodes { Node nodes[]; };
+layout(std430, binding = COPEEL_BUFFER_METHOD + 2) coherent buffer Wanted { uint wanted[]; };   // nodes of each memory, 16 words apart
+layout(std430, binding = COPEEL_BUFFER_METHOD + 3) coherent buffer Longest { uint longest; };   // list that was put off
+
+uint headOf(uint list) { return pixelIndex() * uint(LISTS) + list; }
+
+#if defined(PASS_GATHER)
+
+uniform uint capacity;   // nodes of a memory
+
+void gatherIntoList(uint list, uint key) {
+  uint node = atomicAdd(wanted[list * 16u], 1u);
+  if (node >= capacity) return;
+  node += list * capacity;
+  nodes[node] = Node(atomicExchange(heads[headOf(list)], node + 1u), key, fragmentId());
+}
+
+#else
+
+#include "core/gl/fold.glsl"
+#include "core/gl/sort_short.glsl"
+#define LIST_NODES nodes
+#include "core/gl/sort_list.glsl"
+
+#if defined(PASS_RESOLVE)
+
+layout(binding = COPEEL_TEXTURE_METHOD) uniform usamplerBuffer headTexels;
+layout(binding = COPEEL_TEXTURE_METHOD + 1) uniform usamplerBuffer nodeTexels;
+
+uint lengthOf(uint list) {
+  uint length = 0u;
+  for (uint node = heads[headOf(list)]; node != 0u && length <= LIST_MOST; node = nodes[node - 1u].next) ++length;
+  return length;
+}
+
+// Lists follow one another in depth, so one sort of all their fragments leaves each where it is. They are walked in one loop: lanes that run in lock step
+// then wait for the longest pixel, not for the longest list of each bucket.
+void main() {
+  uint rest[LISTS], count = 0u, left = 0u;
+  for (uint list = 0u; list < uint(LISTS); ++list) {
+    rest[list] = texelFetch(headTexels, int(headOf(list))).r;
+    left |= rest[list];
+  }
+  while (left != 0u && count < uint(SORT_SHORT)) {
+    if (rest[0] != 0u) {
+      uvec4 words = texelFetch(nodeTexels, int(rest[0] - 1u));
+      rest[0] = words.x, sortedKeys[count] = words.y, sortedIds[count] = words.z;
+      ++count;
+    }
+    left = rest[0];
+    for (uint list = 1u; list < uint(LISTS); ++list) left |= rest[list];
+    if (rest[0] != 0u) continue;
+    for (uint list = 1u; list < uint(LISTS); ++list) rest[list - 1u] = rest[list];
+    rest[LISTS - 1] = 0u;
+  }
+  if (count == 0u) return;
+  if (left != 0u) {
+    for (uint list = 0u; list < uint(LISTS); ++list) atomicMax(longest, lengthOf(list));
+    return;
+  }
+  heads[headOf(0u)] = LIST_DONE;
+  sortShort(count);
+  foldLoad(COPEEL_FRONT);
+  deliverShort(count);
+  foldStore(COPEEL_FRONT);
+}
+
+#elif defined(PASS_MERGE)
+
+uniform uint run;
+
+void main() {
+  uint merges;
+  if (heads[headOf(0u)] == LIST_DONE) return;
+  for (uint list = 0u; list < uint(LISTS); ++list) {
+    if (heads[headOf(list)] != 0u) heads[headOf(list)] = mergeRuns(heads[headOf(list)], run, merges);
+  }
+}
+
+#elif defined(PASS_LONG)
+
+void main() {
+  if (heads[headOf(0u)] == LIST_DONE) return;
+  foldLoad(COPEEL_FRONT);
+  for (uint list = 0u; list < uint(LISTS); ++list) {
+    if (deliverList(heads[headOf(list)])) break;
+  }
+  foldStore(COPEEL_FRONT);
+}
+
+#endif
+#endif

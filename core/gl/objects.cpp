@@ -1,0 +1,18 @@
+#include "core/gl/objects.h"
+
+#include <algorithm>
+
+namespace copeel::gl {
+
+Buffer::Buffer(std::size_t bytes, const void* data) : bytes_(std::max<std::size_t>(bytes, 16)) {
+  GLuint name = 0;
+  glCreateBuffers(1, &name);
+  name_ = Handle<deleteBuffer>(name);
+  // A buffer of nothing is not allowed, and an empty scene is: the data fill what there is of them.
+  glNamedBufferStorage(name, static_cast<GLsizeiptr>(bytes_), bytes == bytes_ ? data : nullptr, GL_DYNAMIC_STORAGE_BIT);
+  if (bytes > 0 && bytes < bytes_ && data) write(data, bytes);
+}
+
+void Buffer::clear(GLuint word) const { glClearNamedBufferData(name_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &word); }
+
+}  // namespace copeel::gl

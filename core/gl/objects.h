@@ -1,0 +1,64 @@
+// OpenGL objects that free themselves. Each belongs to the context that was current when it was made.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <epoxy/gl.h>
+
+namespace copeel::gl {
+
+// The name of an object; `Delete` frees it.
+template <auto Delete>
+class Handle {
+ public:
+  explicit Handle(GLuint name = 0) : name_(name) {}
+  ~Handle() { if (name_) Delete(name_); }
+  Handle(Handle&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+  Handle& operator=(Handle&& other) noexcept { std::swap(name_, other.name_); return *this; }
+  operator GLuint() const { return name_; }
+
+ private:
+  GLuint name_;
+};
+
+inline void deleteBuffer(GLuint name) { glDeleteBuffers(1, &name); }
+inline void deleteTexture(GLuint name) { glDeleteTextures(1, &name); }
+inline void deleteFramebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
+inline void deleteVertexArray(GLuint name) { glDeleteVertexArrays(1, &name); }
+inline void deleteQuery(GLuint name) { glDeleteQueries(1, &name); }
+
+using Texture = Handle<deleteTexture>;
+using Framebuffer = Handle<deleteFramebuffer>;
+using VertexArray = Handle<deleteVertexArray>;
+using Query = Handle<deleteQuery>;
+
+// Memory on the device, of a fixed size (bytes).
+class Buffer {
+ public:
+  Buffer() = default;
+  explicit Buffer(std::size_t bytes, const void* data = nullptr);
+  template <class T>
+  explicit Buffer(const std::vector<T>& data) : Buffer(data.size() * sizeof(T), data.data()) {}
+
+  std::size_t bytes() const { return bytes_; }
+  GLuint name() const { return name_; }
+  void bindStorage(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_); }
+  void bindUniform(GLuint binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, name_); }
+  void clear(GLuint word) const;                 // every 32-bit word of it
+  void write(const void* data, std::size_t bytes) const { glNamedBufferSubData(name_, 0, static_cast<GLsizeiptr>(bytes), data); }
+  template <class T>
+  std::vector<T> read(std::size_t count) const {
+    std::vector<T> data(count);
+    if (count > 0) glGetNamedBufferSubData(name_, 0, static_cast<GLsizeiptr>(count * sizeof(T)), data.data());
+    return data;
+  }
+
+ private:
+  Handle<deleteBuffer> name_;
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace copeel::gl

@@ -1,0 +1,45 @@
+#include "core/methods/arrays.h"
+
+#include <algorithm>
+
+#include "core/gl/layout.h"
+
+namespace copeel {
+namespace {
+
+constexpr std::uint32_t kRound = 1024;   // ARRAY_ROUND of sort_array.glsl
+
+// What shaders address with 32-bit byte offsets, some drivers with signed ones.
+constexpr std::size_t kMostBytes = 0x7FFF0000;
+
+}  // namespace
+
+void deliverArrays(gl::Frame& frame, const std::string& file, const gl::Buffer& fragments, const Uniforms& uniforms,
+                   const gl::Defines& defines) {
+  const auto program = [&](const char* pass) -> const gl::Program& {
+    const gl::Program& found = frame.pixelProgram(file, pass, defines);
+    for (const auto& [name, value] : uniforms) found.set(name, value);
+    return found;
+  };
+  const auto drawRounds = [&](const gl::Program& rounds, std::uint32_t steps) {
+    for (std::uint32_t round = 0; round * kRound < steps; ++round) {
+      rounds.set("arrayRound", round);
+      frame.drawPixels(rounds);
+    }
+  };
+  const gl::Buffer& putOff = frame.buffer("longest", 7, 4);
+  putOff.clear(0);
+  frame.texels(fragments, COPEEL_TEXTURE_METHOD, GL_RG32UI);
+  frame.drawPixels(program("RESOLVE"));
+  const std::uint32_t longest = putOff.read<std::uint32_t>(1)[0];
+  if (longest == 0) return;
+  drawRounds(program("HEAP"), longest / 2);
+  drawRounds(program("POP"), longest);
+}
+
+std::size_t roomFor(std::uint64_t memoryBytes, std::size_t others) {
+  if (memoryBytes == 0) return kMostBytes;
+  return std::min<std::size_t>(kMostBytes, memoryBytes > others ? memoryBytes - others : 0);
+}
+
+}  // namespace copeel

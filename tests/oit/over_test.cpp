@@ -1,0 +1,67 @@
+// The fold itself, on random stacks: from the front, from the back, and from both ends joined.
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "core/fold/over.h"
+
+namespace copeel::fold {
+namespace {
+
+using Stack = std::vector<vec4>;   // front to back
+const vec3 kBackground(255, 255, 229);
+
+Stack randomStack() {
+  const auto fragment = rc::gen::map(rc::gen::tuple(rc::gen::inRange(0, 256), rc::gen::inRange(0, 256), rc::gen::inRange(0, 256), rc::gen::inRange(0, 21)),
+                                     [](const auto& t) { return vec4(std::get<0>(t), std::get<1>(t), std::get<2>(t), std::get<3>(t) / 20.0f); });
+  return *rc::gen::container<Stack>(fragment);
+}
+
+OverState forward(Stack::const_iterator begin, Stack::const_iterator end) {
+  OverState state;
+  overBegin(state);
+  for (; begin != end; ++begin) overFragment(state, *begin);
+  return state;
+}
+
+OverState backward(Stack::const_iterator begin, Stack::const_iterator end) {
+  OverState state;
+  overBegin(state);
+  while (end != begin) overBehind(state, *--end);
+  return state;
+}
+
+RC_GTEST_PROP(Over, aStackFromBothEndsShowsTheSameLevels, ()) {
+  const Stack stack = randomStack();
+  const auto middle = stack.begin() + *rc::gen::inRange<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(stack.size()) + 1);
+  const uvec3 whole = overLevels(overResult(forward(stack.begin(), stack.end()), kBackground));
+  RC_ASSERT(overLevels(overResult(backward(stack.begin(), stack.end()), kBackground)) == whole);
+  RC_ASSERT(overLevels(overResult(overJoin(forward(stack.begin(), middle), backward(middle, stack.end())), kBackground)) == whole);
+}
+
+RC_GTEST_PROP(Over, enoughMeansThatNothingBehindMatters, ()) {
+  Stack stack = randomStack();
+  stack.push_back(vec4(10, 20, 30, 1));
+  const OverState opaque = forward(stack.begin(), stack.end());
+  RC_ASSERT(overEnough(opaque));
+  stack.push_back(vec4(200, 100, 0, 0.5f));
+  RC_ASSERT(overResult(forward(stack.begin(), stack.end()), kBackground) == overResult(opaque, vec3(0)));
+}
+
+TEST(Over, anEmptyStackShowsTheBackgroundAndHalvesGoUp) {
+  OverState state;
+  overBegin(state);
+  EXPECT_FALSE(overEnough(state));
+  EXPECT_EQ(overLevels(overResult(state, kBackground)), uvec3(255, 255, 229));
+  overFragment(state, vec4(0, 254, 0, 0.5f));
+  EXPECT_EQ(overLevels(overResult(state, kBackground)), uvec3(128, 255, 115));   // 127.5, 254.5, 114.5
+  EXPECT_EQ(overLevels(dvec3(-3, 300, 12.49999)), uvec3(0, 255, 12));
+}
+
+TEST(Over, lightBrighterThanWhiteStopsAtEachChannelsLimit) {
+  EXPECT_EQ(overShade(vec4(250, 100, 10, 0.25f), 1.5f), vec4(255, 150, 15, 0.25f));
+}
+
+}  // namespace
+}  // namespace copeel::fold

@@ -1,0 +1,140 @@
+// Pictures by hand: what lies in front of what, what is counted, and what may not change a pixel.
+#include <cmath>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/parts.h"
+#include "tests/support/views.h"
+
+namespace copeel::test {
+namespace {
+
+const View kAbove = lookAt({0.521, 0.532, 20}, {0.521, 0.532, 0}, 21, 21, 0.001);
+const View kOblique = lookAt({7, -9, 6}, {0, 0, 0}, 200, 150, 0.004);
+const glm::vec4 kRed(200, 0, 0, 0.5), kGreen(0, 200, 0, 0.5), kBlue(0, 0, 200, 0.5), kSolidBlue(0, 0, 200, 1), kNothing(255, 255, 255, 0);
+
+Mesh square(double z) { return quad({0, 0, z}, {1, 0, z}, {1, 1, z}, {0, 1, z}); }
+
+struct Middle {
+  Rgb8 color;
+  float depth;
+  int id, layers, coplanar;
+};
+Middle middle(const std::vector<oit::Part>& parts) {
+  const oit::Frame frame = drawParts(parts, kAbove).frame;
+  return {frame.color.at(10, 10), frame.depth.at(10, 10), frame.ids.at(10, 10), frame.layers.at(10, 10), frame.coplanar.at(10, 10)};
+}
+
+bool sameBytes(const oit::Frame& a, const oit::Frame& b) {
+  return a.color.pixels == b.color.pixels && a.floats.pixels == b.floats.pixels && a.depth.pixels == b.depth.pixels && a.ids.pixels == b.ids.pixels &&
+         a.layers.pixels == b.layers.pixels && a.coplanar.pixels == b.coplanar.pixels;
+}
+
+TEST(Oit, theNearerFragmentLiesInFrontWhateverTheOrderOfParts) {
+  EXPECT_EQ(middle({part(square(2), kRed), part(square(1), kGreen)}).color, (Rgb8{100, 50, 0}));
+  EXPECT_EQ(middle({part(square(1), kGreen), part(square(2), kRed)}).color, (Rgb8{100, 50, 0}));
+}
+
+TEST(Oit, ofCoplanarPartsTheLaterLiesInFront) {
+  EXPECT_EQ(middle({part(square(1), kRed), part(square(1), kGreen)}).color, (Rgb8{50, 100, 0}));
+  EXPECT_EQ(middle({part(square(1), kGreen), part(square(1), kRed)}).color, (Rgb8{100, 50, 0}));
+  EXPECT_EQ(middle({part(square(1), kGreen), part(flipped(square(1)), kRed), part(fanSquare(1, 20), kBlue)}).color, (Rgb8{50, 25, 100}));
+}
+
+TEST(Oit, withinAPartTheLaterTriangleLiesInFront) {
+  oit::Part twice = part(joined(square(1), square(1)), kRed);
+  twice.faceColors = {kRed, kRed, kGreen, kGreen};
+  EXPECT_EQ(middle({twice}).color, (Rgb8{50, 100, 0}));
+}
+
+TEST(Oit, opaqueHidesAndAlphaZeroIsNotSeenButCounts) {
+  const Middle seen = middle({part(square(3), kNothing), part(square(2), kRed), part(square(1), kSolidBlue), part(square(0), kGreen), part(square(0), kRed)});
+  EXPECT_EQ(seen.color, (Rgb8{100, 0, 100}));
+  EXPECT_EQ(seen.depth, 18);
+  EXPECT_EQ(seen.id, 2);
+  EXPECT_EQ(seen.layers, 5);
+  EXPECT_EQ(seen.coplanar, 2);
+}
+
+TEST(Oit, nothingIsTheBackground) {
+  const oit::Frame frame = drawParts({part(square(1), kRed)}, lookAt({0.5, 0.5, 20}, {0.5, 0.5, 40}, 21, 21, 0.001)).frame;
+  EXPECT_EQ(frame.color.at(10, 10), Rgb8{});
+  EXPECT_TRUE(std::isinf(frame.depth.at(10, 10)));
+  EXPECT_EQ(frame.ids.at(10, 10) + frame.layers.at(10, 10) + frame.coplanar.at(10, 10), 0);
+}
+
+TEST(Oit, theOrderOfEqualPartsAndOfTrianglesChangesNothing) {
+  std::vector<oit::Part> parts;
+  for (unsigned i = 0; i < 6; ++i) parts.push_back(part(shuffled(bumpySphere(1.5 + 0.2 * (i / 2), 40, 20), i), kRed));
+  const oit::Frame first = drawParts(parts, kOblique).frame;
+  std::reverse(parts.begin(), parts.end());
+  const oit::Frame second = drawParts(parts, kOblique).frame;
+  EXPECT_EQ(first.color.pixels, second.color.pixels);
+  EXPECT_EQ(first.floats.pixels, second.floats.pixels);
+  EXPECT_EQ(first.depth.pixels, second.depth.pixels);
+  EXPECT_EQ(first.layers.pixels, second.layers.pixels);
+  EXPECT_EQ(first.coplanar.pixels, second.coplanar.pixels);
+}
+
+TEST(Oit, threadsChangeNothing) {
+  std::vector<oit::Part> parts;
+  for (const glm::vec4& color : {kRed, kGreen, kSolidBlue, kBlue}) parts.push_back(part(torusKnot(0.8, 80, 8), color));
+  oit::RenderOptions one, two;
+  one.threads = 1;
+  two.threads = 2;
+  EXPECT_TRUE(sameBytes(drawParts(parts, kOblique, one).frame, drawParts(parts, kOblique, two).frame));
+}
+
+// Wanting the counts makes the fold look behind opaque surfaces; what is seen stays.
+TEST(Oit, countingChangesNoColour) {
+  std::vector<oit::Part> parts = {part(bumpySphere(2, 40, 20), kRed), part(sphere(1.5, 40, 20), kSolidBlue), part(torusKnot(0.8, 80, 8), kGreen)};
+  const Image<Rgb8> counted = drawParts(parts, kOblique).frame.color;
+  oit::Renderer plain(parts, unlit());
+  EXPECT_EQ(plain.draw(kOblique).color.pixels, counted.pixels);
+}
+
+TEST(Oit, samplesAreTheMeanOfPicturesAndDepthIsTheCentres) {
+  const std::vector<oit::Part> parts = {part(bumpySphere(2, 40, 20), kRed), part(torusKnot(0.8, 80, 8), kGreen)};
+  oit::RenderOptions smooth = unlit();
+  smooth.samples = 16;
+  const OitDrawing once = drawParts(parts, kOblique), often = drawParts(parts, kOblique, smooth);
+  EXPECT_EQ(once.frame.depth.pixels, often.frame.depth.pixels);
+  EXPECT_EQ(once.frame.layers.pixels, often.frame.layers.pixels);
+  EXPECT_EQ(once.stats.fragments, often.stats.fragments);
+  double difference = 0, greatest = 0;
+  for (std::size_t i = 0; i < once.frame.floats.pixels.size(); ++i) {
+    const double d = once.frame.floats.pixels[i].g - often.frame.floats.pixels[i].g;
+    difference += d;
+    greatest = std::max(greatest, std::abs(d));
+  }
+  EXPECT_LT(std::abs(difference) / double(once.frame.floats.pixels.size()), 0.2);
+  EXPECT_GT(greatest, 10);   // edges were smoothed
+}
+
+TEST(Oit, theZBufferKeepsTheNearestAlone) {
+  oit::RenderOptions options = unlit();
+  options.method = "zbuffer";
+  const oit::Frame frame = drawParts({part(square(2), kRed), part(square(1), kGreen)}, kAbove, options).frame;
+  EXPECT_EQ(frame.color.at(10, 10), (Rgb8{100, 0, 0}));
+  EXPECT_EQ(frame.ids.at(10, 10), 1);
+}
+
+// More fragments in one pixel than 16 bits count, in one plane: none is lost, and the pictures that count saturate.
+TEST(Oit, sixtyFiveThousandCoplanarFragments) {
+  constexpr unsigned kCount = 65537;
+  constexpr float kAlpha = 2e-5f;
+  Mesh stack;
+  stack.vertices = square(1).vertices;
+  stack.triangles.assign(kCount, {0, 1, 2});
+  const View view = lookAt({0.71, 0.32, 20}, {0.71, 0.32, 0}, 3, 3, 0.001);
+  const OitDrawing drawing = drawParts({part(stack, glm::vec4(200, 100, 50, kAlpha))}, view);
+  EXPECT_EQ(drawing.stats.depthComplexityMax, kCount);
+  EXPECT_EQ(drawing.stats.fragmentsCaptured, 9u * kCount);
+  EXPECT_EQ(drawing.frame.layers.at(1, 1), 65535);
+  EXPECT_EQ(drawing.frame.coplanar.at(1, 1), 65535);
+  EXPECT_NEAR(drawing.frame.floats.at(1, 1).r, 200 * (1 - std::pow(1 - double(kAlpha), kCount)), 1e-4);
+}
+
+}  // namespace
+}  // namespace copeel::test

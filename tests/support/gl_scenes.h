@@ -1,0 +1,72 @@
+// Scenes for the methods of the gl back end: what coplanarity, depth and emptiness can do to them, in a few triangles.
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+#include "core/scene/scene.h"
+#include "tests/support/meshes.h"
+#include "tests/support/views.h"
+
+namespace copeel::test {
+
+struct GlScene {
+  std::string name;
+  Scene scene;
+  View view;
+};
+
+inline Scene copiesOf(const MeshPointer& mesh, int count, const glm::dvec3& step = {0, 0, 0}) {
+  std::vector<Object> objects;
+  for (int i = 0; i < count; ++i) objects.push_back({mesh, translation(step * double(i))});
+  return Scene(std::move(objects));
+}
+
+// The same surface, its triangles in another order and each begun at another corner.
+inline Mesh shuffled(Mesh mesh) {
+  std::reverse(mesh.triangles.begin(), mesh.triangles.end());
+  for (glm::uvec3& t : mesh.triangles) t = {t.y, t.z, t.x};
+  // Facets are numbered in the order of their triangles.
+  std::reverse(mesh.facets.begin(), mesh.facets.end());
+  const auto last = mesh.facets.empty() ? 0 : mesh.facets.front();
+  for (auto& facet : mesh.facets) facet = last - facet;
+  return mesh;
+}
+
+inline Mesh squareAt(double z) { return quad({0, 0, z}, {1, 0, z}, {1, 1, z}, {0, 1, z}); }
+
+// Towers of unit boxes that share walls.
+inline Scene voxelCity() {
+  const MeshPointer cube = share(box({0, 0, 0}, {1, 1, 1}));
+  std::vector<Object> objects;
+  for (int x = 0; x < 3; ++x) {
+    for (int y = 0; y < 3; ++y) {
+      for (int z = 0; z <= (x * 2 + y) % 3; ++z) objects.push_back({cube, translation({double(x), double(y), double(z)})});
+    }
+  }
+  return Scene(std::move(objects));
+}
+
+inline View above(int width, int height, double pixel = 0.03) { return lookAt({0.5, 0.5, 20}, {0.5, 0.5, 0}, width, height, pixel, false); }
+
+inline std::vector<GlScene> glScenes() {
+  const MeshPointer ball = share(sphere(1, 17, 9)), cube = share(box({-0.7, -0.7, -0.7}, {0.7, 0.7, 0.7}));
+  const glm::dmat4 here(1.0);
+  const View aside = lookAt({3, 2, 4}, {0, 0, 0}, 64, 48, 0.02);
+  std::vector<GlScene> scenes;
+  scenes.push_back({"5 coincident balls", copiesOf(ball, 5), aside});
+  scenes.push_back({"shuffled twin", Scene({{ball, here}, {share(shuffled(sphere(1, 17, 9))), here}}), aside});
+  scenes.push_back({"fan against quad", Scene({{share(fanSquare(0, 5)), here}, {share(squareAt(0)), here}}), above(64, 48)});
+  scenes.push_back({"voxel city", voxelCity(), lookAt({8, 6, 7}, {1.5, 1.5, 1}, 64, 48, 0.015)});
+  scenes.push_back({"interpenetrating", Scene({{ball, here}, {cube, here}, {cube, rotation({0, 0, 90})}, {cube, rotation({0, 30, 0})}}), aside});
+  scenes.push_back({"box in box", Scene({{cube, here}, {cube, scaling({0.5, 0.5, 0.5})}}), aside});
+  scenes.push_back({"one triangle", Scene({{share(Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}}), here}}), above(64, 48)});
+  scenes.push_back({"nothing", Scene(std::vector<Object>{}), above(64, 48)});
+  scenes.push_back({"one pixel", copiesOf(ball, 3), lookAt({3, 2, 4}, {0, 0, 0}, 1, 1, 0.5)});
+  scenes.push_back({"wide", copiesOf(ball, 3), lookAt({3, 2, 4}, {0, 0, 0}, 301, 2, 0.005)});
+  scenes.push_back({"300 layers", copiesOf(share(squareAt(0)), 300, {0, 0, 0.01}), above(32, 24, 0.06)});
+  scenes.push_back({"300 coplanar", copiesOf(share(squareAt(0)), 300), above(32, 24, 0.06)});
+  return scenes;
+}
+
+}  // namespace copeel::test
