@@ -165,9 +165,8 @@ void Renderer::State::drawPass(const View& view, PixelSink& sink) {
   ++stats.passes;
   const cpu::Frame frame(scene, planes, view);
   if (options.method == "zbuffer") {
-    cpu::renderNearest(frame, [&](int x, int y, const cpu::TileSlot* slot, const cpu::Tile& tile) {
-      if (!slot) return;
-      const Surface surface{slot->primitive, slot->planeClass, tile.objects[slot->object].object, 0};
+    cpu::renderNearest(frame, [&](int x, int y, const cpu::TileSlot& slot, const cpu::Tile& tile) {
+      const Surface surface{slot.primitive, slot.planeClass, tile.objects[slot.object].object, 0};
       sink.pixel(x, y, {&surface, 1});
     });
   } else {

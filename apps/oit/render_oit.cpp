@@ -86,8 +86,8 @@ void Renderer::State::drawPass(const View& view, const Targets& targets) {
   const auto makeFold = [&] { return OverFold(frame, tables, opaque, background(), canvas); };
   if (options.method == "zbuffer") {
     const OverFold fold = makeFold();
-    cpu::renderNearest(frame, [&](int x, int y, const cpu::TileSlot* slot, const cpu::Tile& tile) {
-      if (slot) canvas.put(x, y, fold.single(*slot, tile), tile);
+    cpu::renderNearest(frame, [&](int x, int y, const cpu::TileSlot& slot, const cpu::Tile& tile) {
+      canvas.put(x, y, fold.single(slot, tile), tile);
     });
     return;
   }

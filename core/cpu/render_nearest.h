@@ -13,7 +13,7 @@
 
 namespace copeel::cpu {
 
-// `visit(x, y, const TileSlot*, const Tile&)`: for every pixel the nearest triangle's slot, or null. Called from several threads.
+// `visit(x, y, const TileSlot&, const Tile&)`: the slot of the nearest triangle of each pixel that has any. Called from several threads.
 template <class Visit>
 void renderNearest(const Frame& frame, Visit visit) {
   struct Local {
@@ -30,11 +30,12 @@ void renderNearest(const Frame& frame, Visit visit) {
       tile.finish(std::numeric_limits<double>::infinity(), false);
       std::fill(local.nearest.begin(), local.nearest.end(), kEmptyKey);
       collectNearest(tile.setups, tile.format, BlockRect{}, local.nearest.data());
-      for (int y = 0; y < tile.height; ++y) {
-        for (int x = 0; x < tile.width; ++x) {
-          const int block = y / kBlockSize * kBlocksPerSide + x / kBlockSize;
-          const std::uint64_t key = local.nearest[block * kBlockPixels + y % kBlockSize * kBlockSize + x % kBlockSize];
-          visit(tile.x0 + x, tile.y0 + y, key == kEmptyKey ? nullptr : &tile.slots[tile.format.slotOf(key)], tile);
+      for (int b = 0; b < kBlocksPerTile; ++b) {
+        const int x0 = b % kBlocksPerSide * kBlockSize, y0 = b / kBlocksPerSide * kBlockSize;
+        for (int p = 0; p < kBlockPixels; ++p) {
+          const std::uint64_t key = local.nearest[b * kBlockPixels + p];
+          if (key == kEmptyKey) continue;
+          visit(tile.x0 + x0 + p % kBlockSize, tile.y0 + y0 + p / kBlockSize, tile.slots[tile.format.slotOf(key)], tile);
         }
       }
     }

@@ -132,7 +132,9 @@ class TileRenderer {
     return all;
   }
 
+  // A pixel that no fragment is left to meet shows nothing, and its fold is not asked.
   bool foldBlock(int b, int x, int y, std::uint64_t limit) {
+    if (grid_.block(b).used == 0 && limit == kNoLimit) return true;
     if (narrows_) window_.take(fold_, tile_, grid_.block(b));
     FragmentGrid::Block& block = narrows_ ? window_.block() : grid_.block(b);
     sortBlock(block);
@@ -142,7 +144,7 @@ class TileRenderer {
     for (int row = 0; row < rows; ++row) {
       for (int column = 0; column < columns; ++column) {
         const int p = row * kBlockSize + column;
-        if (done_[b] >> p & 1) continue;
+        if ((done_[b] >> p & 1) || (block.counts[p] == 0 && limit == kNoLimit)) continue;
         const PixelStack stack{block.keys.get() + p, block.counts[p], kBlockPixels, tile_.format, tile_.slots.data(),
                                narrows_ ? window_.before(p) : std::span<const std::uint32_t>{}};
         const int px = tile_.x0 + x + column, py = tile_.y0 + y + row;

@@ -48,7 +48,7 @@ concept Fold = requires(F fold, cpu::Tile& tile, std::span<const cpu::DepthRange
   // For a pixel with its fragments in the order of their slots: bounds of the depths in which results can be true, in key units.
   // Fragments certainly in front of it need no order, those behind it are not needed.
   { fold.window(stack) } -> std::same_as<cpu::DepthRange>;
-  // The ordered fragments of a pixel; those of `before` count as met.
+  // The ordered fragments of a pixel; those of `before` count as met. Pixels without fragments are passed over.
   fold.beginPixel(stack);
   fold.fragment(slot);
   // The fragments since the last call lie at one depth. True: enough, nothing behind matters.
