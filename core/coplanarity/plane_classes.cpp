@@ -113,7 +113,7 @@ class ClassIndex {
 
   void insert(std::uint64_t cell, std::uint32_t planeClass) {
     chain_.resize(planeClass + 1);
-    chain_[planeClass] = {std::exchange(heads_[bucketOf(cell)], planeClass), cell};
+    chain_[planeClass] = {std::exchange(heads_[bucketOf(cell)], planeClass), checkOf(cell)};
   }
 
   // The first class for which `accept` holds among those whose plane may agree; kNone if none.
@@ -122,7 +122,7 @@ class ClassIndex {
     std::uint32_t found = kNone;
     PlaneCells::anyNear(place, [&](std::uint64_t cell) {
       for (found = heads_[bucketOf(cell)]; found != kNone; found = chain_[found].next) {
-        if (chain_[found].cell == cell && accept(found)) return true;
+        if (chain_[found].check == checkOf(cell) && accept(found)) return true;
       }
       return false;
     });
@@ -132,8 +132,9 @@ class ClassIndex {
  private:
   struct Link {
     std::uint32_t next;
-    std::uint64_t cell;   // classes of other cells in the bucket are passed over unseen
+    std::uint32_t check;   // most classes of other cells in the bucket are passed over unseen
   };
+  static std::uint32_t checkOf(std::uint64_t cell) { return static_cast<std::uint32_t>(mixed(cell) >> 32); }
   std::size_t bucketOf(std::uint64_t cell) const { return mixed(cell) & (heads_.size() - 1); }
 
   std::vector<std::uint32_t> heads_;
@@ -194,11 +195,11 @@ class PlaneClasses::Former {
     return keys;
   }
 
-  // Classes in the order of their representatives. Extents are measured block by block, in parallel, rather than kept; the classes are formed
-  // in order. Calls assign(facet, class) for each.
+  // Classes in the order of their representatives, as the facets that these are; each is widened where measureAll put it. Extents are measured block
+  // by block, in parallel, rather than kept; the classes are formed in order. Calls assign(facet, class) for each.
   template <class Assign>
-  std::vector<PlaneClass> form(const std::vector<FacetKey>& keys, const PlaneClass* alone, Assign assign) const {
-    std::vector<PlaneClass> classes;
+  std::vector<std::uint32_t> form(const std::vector<FacetKey>& keys, PlaneClass* alone, Assign assign) const {
+    std::vector<std::uint32_t> representatives;
     ClassIndex index(keys.size());
     std::vector<Facet> block;
     for (std::size_t begin = 0; begin < keys.size(); begin += kBlock) {
@@ -208,18 +209,19 @@ class PlaneClasses::Former {
       });
       for (std::size_t i = 0; i < block.size(); ++i) {
         const Facet& facet = block[i];
-        std::uint32_t found = index.find(facet.place, [&](std::uint32_t c) { return agrees(scene_, facet, classes[c], tolerance_); });
+        std::uint32_t found =
+            index.find(facet.place, [&](std::uint32_t c) { return agrees(scene_, facet, alone[representatives[c]], tolerance_); });
         if (found == kNone) {
-          found = static_cast<std::uint32_t>(classes.size());
-          classes.push_back(facet.alone);
+          found = static_cast<std::uint32_t>(representatives.size());
+          representatives.push_back(keys[begin + i].facet);
           index.insert(PlaneCells::homeOf(facet.place), found);
         } else {
-          widen(classes[found], facet.extent.box);
+          widen(alone[representatives[found]], facet.extent.box);
         }
         assign(keys[begin + i].facet, found);
       }
     }
-    return classes;
+    return representatives;
   }
 
  private:
@@ -268,25 +270,27 @@ PlaneClasses::PlaneClasses(const Scene& scene, double tolerance)
     former.measureAll(classes_.get(), places);
     inReach = placesInReach(places);
   }
-  const std::vector<PlaneClass> shared =
+  const std::vector<std::uint32_t> representatives =
       former.form(former.keysOf(inReach, classes_.get()), classes_.get(),
                   [&](std::uint32_t facet, std::uint32_t planeClass) { classOfFacet_[facet] = planeClass; });
-  numberByObject(shared);
+  numberByObject(representatives);
 }
 
-// Classes numbered as the objects meet them, so that what is drawn together lies together. Those of lone facets move down to their place.
-void PlaneClasses::numberByObject(const std::vector<PlaneClass>& shared) {
-  std::vector<std::uint32_t> number(shared.size(), kNone);
+// Classes numbered as the objects meet them, so that what is drawn together lies together. Each moves down to its place: a representative is never
+// before the first facet of its class, so nothing is overwritten that is still wanted.
+void PlaneClasses::numberByObject(const std::vector<std::uint32_t>& representatives) {
+  std::vector<std::uint32_t> number(representatives.size(), kNone);
   for (std::size_t facet = 0; facet < classOfFacet_.size(); ++facet) {
     std::uint32_t& planeClass = classOfFacet_[facet];
-    if (planeClass == kNone) {
-      if (classCount_ != facet) classes_[classCount_] = classes_[facet];
-      planeClass = classCount_++;
+    const bool isAlone = planeClass == kNone;
+    if (!isAlone && number[planeClass] != kNone) {
+      planeClass = number[planeClass];
       continue;
     }
-    std::uint32_t& own = number[planeClass];
-    if (own == kNone) classes_[classCount_] = shared[planeClass], own = classCount_++;
-    planeClass = own;
+    const std::size_t from = isAlone ? facet : representatives[planeClass];
+    if (classCount_ != from) classes_[classCount_] = classes_[from];
+    if (!isAlone) number[planeClass] = classCount_;
+    planeClass = classCount_++;
   }
 }
 

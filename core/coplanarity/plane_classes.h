@@ -42,7 +42,7 @@ class PlaneClasses {
 
  private:
   class Former;
-  void numberByObject(const std::vector<PlaneClass>& shared);
+  void numberByObject(const std::vector<std::uint32_t>& representatives);
 
   double tolerance_ = 0;
   std::unique_ptr<PlaneClass[]> classes_;   // room for a class of each facet
