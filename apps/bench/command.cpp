@@ -23,7 +23,7 @@ namespace {
 constexpr std::array<std::string_view, 9> kSweepMethods = {"tile", "ll", "fab", "sb", "k-plus", "f2b", "f2b-2p", "f2b-ll", "dual-2p"};
 constexpr std::array<std::size_t, 5> kCopies = {1, 2, 4, 8, 12};
 constexpr std::array<unsigned, 4> kShells = {1, 2, 4, 8};
-constexpr unsigned kShellColumns = 48, kShellRows = 32;
+constexpr unsigned kShellColumns = 28, kShellRows = 18;
 constexpr int kLargestSide = 16384;
 
 struct CommandOptions {

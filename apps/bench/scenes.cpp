@@ -19,6 +19,7 @@ namespace {
 using MeshPointer = std::shared_ptr<const Mesh>;
 
 constexpr float kAlpha = 0.3f;
+constexpr unsigned kSmall = 50;       // columns and rows of bodies that come several times
 constexpr int kCityEdge = 8;          // towers a side
 constexpr int kHairs = 600, kHairJoints = 12;
 
@@ -87,7 +88,7 @@ glm::dmat4 turned(double degrees, const glm::dvec3& axis) { return glm::rotate(g
 // Each copy turned by an angle of its own and back: the matrices are the identity to 1e-16, and not to the bit.
 BenchScene turnedCopies(std::size_t count) {
   BenchScene scene{"turned", "copies turned and turned back", {}};
-  const MeshPointer mesh = share(bumpySphere(100, 100));
+  const MeshPointer mesh = share(bumpySphere(kSmall, kSmall));
   for (std::size_t i = 0; i < count; ++i) {
     const glm::dvec3 axis(1, 2, 3 + double(i));
     scene.parts.push_back(partOf(mesh, i, turned(17.0 * double(i), axis) * turned(-17.0 * double(i), axis)));
@@ -167,7 +168,7 @@ BenchScene copies(const Mesh& mesh, std::size_t count, std::string name) {
 
 BenchScene threeInARow() {
   BenchScene scene{"row", "three bodies in a row along the view", {}, true};
-  const MeshPointer mesh = share(bumpySphere(100, 100));
+  const MeshPointer mesh = share(bumpySphere(kSmall, kSmall));
   for (std::size_t i = 0; i < 3; ++i) scene.parts.push_back(partOf(mesh, i, glm::translate(glm::dmat4(1.0), glm::dvec3(-2.5 * double(i), 0, 0))));
   return scene;
 }
@@ -183,7 +184,7 @@ BenchScene sceneOf(const std::string& name, std::size_t copyCount) {
     scene.title = "a bumpy sphere";
     return scene;
   }
-  if (name == "copies") return copies(bumpySphere(100, 100), copyCount, "copies");
+  if (name == "copies") return copies(bumpySphere(kSmall, kSmall), copyCount, "copies");
   if (name == "turned") return turnedCopies(copyCount);
   if (name == "cut") return cutInTwoWays();
   if (name == "city") return city();
