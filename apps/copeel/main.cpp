@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "apps/bench/command.h"
 #include "apps/copeel/heap.h"
 #include "apps/copeel/methods_command.h"
 #include "apps/csg/command.h"
@@ -27,12 +28,12 @@ constexpr std::pair<const char*, const char*> kNotBuilt[] = {
     {"wireframe", "line drawings without hidden lines"},
     {"collide", "where meshes cross"},      {"coplanar", "which faces lie on each other"},
     {"view", "a window to look around in"}, {"validate", "compares with exact references"},
-    {"bench", "speed against error of all methods"},
 };
 
 void addCommands(CLI::App& program) {
   copeel::csg::addCommand(program);
   copeel::oit::addCommand(program);
+  copeel::bench::addCommand(program);
   copeel::addMethodsCommand(program);
   for (const auto& [name, what] : kNotBuilt) {
     CLI::App* command = program.add_subcommand(name, fmt::format("{} (not built in this version)", what));

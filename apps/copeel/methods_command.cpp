@@ -45,13 +45,29 @@ void printJson() {
   fmt::print("{}\n", list.dump(2));
 }
 
+// A bar within a cell would end it.
+std::string cell(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);
+  return out;
+}
+
+void printMarkdown() {
+  fmt::print("| name | what it is | source | back end | passes | memory, bytes | R_h |\n|---|---|---|---|---|---|---|\n");
+  for (const MethodInfo& m : methods()) {
+    fmt::print("| `{}` | {} | {} | {} | {} | {} | {} |\n", cell(m.name), cell(m.title), cell(m.source), cell(m.backend), cell(m.passes), cell(m.memory), cell(m.robustness));
+  }
+}
+
 }  // namespace
 
 void addMethodsCommand(CLI::App& program) {
   CLI::App* command = program.add_subcommand("methods", "lists the methods of this version");
   const auto json = std::make_shared<bool>(false);
+  const auto markdown = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "as JSON");
-  command->callback([json] { *json ? printJson() : printTable(); });
+  command->add_flag("--markdown", *markdown, "as a table in Markdown")->excludes("--json");
+  command->callback([json, markdown] { *json ? printJson() : *markdown ? printMarkdown() : printTable(); });
 }
 
 }  // namespace copeel

@@ -71,6 +71,9 @@ void GlPass::draw(const View& view, const fold::OverTables& tables, const glm::v
   const gl::FrameCounts counts = state.renderer.draw(method.draw, state.options);
   stats.passes += counts.passes;
   stats.overflow = counts.method.overflow;
+  stats.methodBytes = counts.methodBytes;
+  stats.objectsDrawn = counts.objectsDrawn;
+  stats.passMs = counts.passMs;
 
   const std::vector<std::uint32_t> words = state.renderer.result();
   const std::vector<DepthPlane> depths = targets.depth ? depthPlanes(state.scene, state.planes, view) : std::vector<DepthPlane>();
@@ -88,6 +91,8 @@ void GlPass::draw(const View& view, const fold::OverTables& tables, const glm::v
     }
   });
 }
+
+void GlPass::setOptions(const MethodOptions& options) { state_->options = options; }
 
 void GlPass::measure(const MethodInfo& method, Stats& stats) { gl::measure(state_->renderer, method, state_->options, stats); }
 

@@ -18,6 +18,7 @@ class GlPass {
   // `tables`: with the shades of the view. `mayEnd`: a pixel has enough at an opaque fragment.
   void draw(const View& view, const fold::OverTables& tables, const glm::vec3& background, bool mayEnd, const MethodInfo& method,
             const Targets& targets, Stats& stats);
+  void setOptions(const MethodOptions& options);   // of the frames to come; the source of depth stays
   // Counts what the method delivers of the last view (core/gl/measure.h).
   void measure(const MethodInfo& method, Stats& stats);
 

@@ -134,6 +134,19 @@ Renderer::Renderer(std::vector<Part> parts, const RenderOptions& options) : stat
 
 Renderer::~Renderer() = default;
 
+void Renderer::setMethod(const std::string& method, const MethodOptions& options) {
+  const MethodInfo* info = findMethod(method);
+  if (!info) failUsage("--method {}: there is no such method", method);
+  state_->options.method = method;
+  state_->options.methodOptions = options;
+  state_->stats.method = method;
+  state_->stats.backend = info->backend;
+  state_->stats.overflow = state_->stats.methodBytes = 0;
+#if COPEEL_GL
+  if (state_->glPass) state_->glPass->setOptions(options);
+#endif
+}
+
 const Box& Renderer::bounds() const { return state_->scene.bounds(); }
 const Stats& Renderer::stats() const { return state_->stats; }
 

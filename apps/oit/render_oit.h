@@ -56,6 +56,8 @@ class Renderer {
   ~Renderer();
 
   const Box& bounds() const;
+  // Of the frames to come: scene, planes and what is on the device stay.
+  void setMethod(const std::string& method, const MethodOptions& options);
   Frame draw(const View& view);
   const Stats& stats() const;      // of preparation and the last frame
   void measure();                  // counts the last frame's fragments, where drawing it did not (the gl back end)

@@ -255,6 +255,7 @@ void Frame::clearTarget(int attachment, const glm::vec4& value) { glClearNamedFr
 void Frame::begin() {
   ++frames_;
   objectsDrawn_.clear();
+  passBegan_.clear();
   culls_ = false;
   writeTargets(0);
   glViewport(0, 0, width_, height_);
@@ -274,7 +275,14 @@ void Frame::finish() {
   noDepthTest();
   drawPixels(pixelProgram("core/gl/begin.glsl", "FINISH"));
   glFinish();
+  passBegan_.push_back(std::chrono::steady_clock::now());
   checkErrors("drawing");
+}
+
+std::vector<double> Frame::passMs() const {
+  std::vector<double> all;
+  for (std::size_t i = 1; i < passBegan_.size(); ++i) all.push_back(std::chrono::duration<double, std::milli>(passBegan_[i] - passBegan_[i - 1]).count());
+  return all;
 }
 
 void Frame::drawObjects(const Program& program, std::uint32_t begin, std::uint32_t end) {

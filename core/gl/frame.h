@@ -2,6 +2,7 @@
 // resolve them. A method asks for programs and buffers by name; both are kept between frames.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
@@ -64,7 +65,10 @@ class Frame {
   void clearTarget(int attachment, const glm::vec4& value);
 
   // All objects, or some; a pass over the geometry is counted once for each call of beginPass().
-  void beginPass() { objectsDrawn_.push_back(0); }
+  void beginPass() {
+    objectsDrawn_.push_back(0);
+    passBegan_.push_back(std::chrono::steady_clock::now());
+  }
   void drawGeometry(const Program& program) { beginPass(); drawObjects(program, 0, static_cast<std::uint32_t>(scene_.scene().objects().size())); }
   void drawObjects(const Program& program, std::uint32_t begin, std::uint32_t end);
   void drawPixels(const Program& program);
@@ -85,6 +89,8 @@ class Frame {
   std::vector<std::uint32_t> result() const;          // resultWords per pixel, row by row from the upper left
   std::uint64_t passes() const { return objectsDrawn_.size(); }
   const std::vector<std::uint32_t>& objectsDrawn() const { return objectsDrawn_; }   // in each pass
+  // From each pass to the next, the last to finish(): what a pass took where something waits for its end, as peeling's queries do.
+  std::vector<double> passMs() const;
   std::uint64_t methodBytes() const;   // of the buffers, targets and depth asked for since begin()
   std::uint64_t foldBytes() const { return states_.bytes() + results_.bytes(); }
 
@@ -126,6 +132,7 @@ class Frame {
   std::unique_ptr<Culling> culling_;   // of this view, once it was asked for
   bool culls_ = false;
   std::vector<std::uint32_t> objectsDrawn_;
+  std::vector<std::chrono::steady_clock::time_point> passBegan_;   // and finish()'s end
   std::uint64_t frames_ = 0, depthUsedIn_ = 0;
 };
 

@@ -23,7 +23,7 @@ std::vector<std::uint32_t> countsOf(Renderer& renderer, DrawMethod method, const
 
 void measure(Renderer& renderer, const MethodInfo& method, const MethodOptions& options, Stats& stats) {
   const std::vector<std::uint32_t> all = countsOf(renderer, drawLl, {.hardwareDepth = options.hardwareDepth});
-  stats.fragments = stats.fragmentsCaptured = stats.depthComplexityMax = stats.coveredPixels = stats.coplanarPixels = 0;
+  stats.fragments = stats.fragmentsCaptured = stats.capturedMax = stats.depthComplexityMax = stats.coveredPixels = stats.coplanarPixels = 0;
   for (std::size_t i = 0; i < all.size(); i += kCountWords) {
     stats.fragments += all[i];
     stats.depthComplexityMax = std::max<std::uint64_t>(stats.depthComplexityMax, all[i]);
@@ -31,7 +31,10 @@ void measure(Renderer& renderer, const MethodInfo& method, const MethodOptions& 
     stats.coplanarPixels += all[i + 2] > 1;
   }
   const std::vector<std::uint32_t> captured = countsOf(renderer, method.draw, options);
-  for (std::size_t i = 0; i < captured.size(); i += kCountWords) stats.fragmentsCaptured += captured[i];
+  for (std::size_t i = 0; i < captured.size(); i += kCountWords) {
+    stats.fragmentsCaptured += captured[i];
+    stats.capturedMax = std::max<std::uint64_t>(stats.capturedMax, captured[i]);
+  }
 }
 
 }  // namespace copeel::gl

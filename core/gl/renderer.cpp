@@ -15,6 +15,7 @@ FrameCounts Renderer::draw(DrawMethod method, const MethodOptions& options, cons
   frame_.finish();
   counts.passes = frame_.passes();
   counts.objectsDrawn = frame_.objectsDrawn();
+  counts.passMs = frame_.passMs();
   counts.methodBytes = frame_.methodBytes();
   counts.foldBytes = frame_.foldBytes();
   return counts;

@@ -16,6 +16,7 @@ struct FrameCounts {
   MethodCounts method;
   std::uint64_t passes = 0;         // over the geometry
   std::vector<std::uint32_t> objectsDrawn;   // in each pass
+  std::vector<double> passMs;                // from each pass to the next
   std::uint64_t methodBytes = 0;    // of the method's buffers on the device
   std::uint64_t foldBytes = 0;      // of the fold's states and results
 };

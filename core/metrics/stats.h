@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace copeel {
 
@@ -16,6 +17,7 @@ struct Stats {
   std::uint64_t planeClasses = 0;
   std::uint64_t fragments = 0;              // of the scene in this view, so far as they had to be met
   std::uint64_t fragmentsCaptured = 0;
+  std::uint64_t capturedMax = 0;            // of the pixel that has most of them
   std::uint64_t depthComplexityMax = 0;     // fragments of the fullest pixel
   std::uint64_t coveredPixels = 0;
   std::uint64_t coplanarPixels = 0;         // covered pixels with at least one coplanar group of two or more
@@ -23,6 +25,9 @@ struct Stats {
   std::uint64_t decidedExactly = 0;         // depth orders that the filter left open
   std::uint64_t passes = 0;                 // over the scene's geometry
   std::uint64_t memoryBytes = 0;            // peak resident set
+  std::uint64_t methodBytes = 0;            // of the method's buffers on the device (gl)
+  std::vector<std::uint32_t> objectsDrawn;  // in each pass (gl)
+  std::vector<double> passMs;               // from each pass to the next (gl)
   double loadMs = 0, prepareMs = 0, frameMedianMs = 0, frameMinMs = 0, totalMs = 0;
 
   double rh() const { return fragments ? double(fragmentsCaptured) / double(fragments) : 1.0; }

@@ -90,7 +90,7 @@ TEST_F(Usage, RefusedWithOneLine) {
 }
 
 TEST_F(Usage, WhatIsNotBuiltSaysSo) {
-  for (const char* command : {"wireframe", "collide", "coplanar", "view", "validate", "bench"}) {
+  for (const char* command : {"wireframe", "collide", "coplanar", "view", "validate"}) {
     const Outcome outcome = run({command, "a.stl", "--alpha", "0.5"});
     expectFailure(outcome, 3);
     EXPECT_NE(outcome.standardError.find("not built in this version"), std::string::npos);
