@@ -14,6 +14,7 @@ MethodCounts drawF2b3p(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawF2bLl(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawF2bFab(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawF2bKb(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawHybrid(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawDual(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawDual2p(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawDualLl(gl::Frame& frame, const MethodOptions& options);

@@ -34,6 +34,8 @@ const std::vector<MethodInfo>& methods() {
        "12 + 4 K a pixel", "Σ min(K, C(Z)) / N", false, drawF2bFab, "+cull"},
       {"f2b-kb", "a k-buffer per depth layer", "Vasilakis and Fudos 2013, Algorithm 3", "gl", "2 D + 1",
        "8 + 4 K a pixel", "Σ min(K, C(Z)) / N", false, drawF2bKb, "+cull"},
+      {"hybrid", "peels by depth, and by id where fragments are coplanar", "Copeel; asked for by Vasilakis and Fudos 2013, 5", "gl",
+       "Σ (1 + ⌊C(Z) / 2⌋) + 1", "28 a pixel", "1", true, drawHybrid, "+cull"},
       {"dual", "dual depth peeling", "Bavoil and Myers 2008", "gl", "⌈D / 2⌉ + 1",
        "24 a pixel", "D / N", false, drawDual, "+cull"},
       {"dual-2p", "f2b-2p from both ends", "Vasilakis and Fudos 2013, 3.1.2", "gl", "about Σ ⌈C(Z) / 2⌉ + 1",
