@@ -20,6 +20,7 @@ MethodCounts drawDual2p(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawDualLl(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawDualFab(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawDualKb(gl::Frame& frame, const MethodOptions& options);
+MethodCounts drawAuto(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawFab(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawLl(gl::Frame& frame, const MethodOptions& options);
 MethodCounts drawSb(gl::Frame& frame, const MethodOptions& options);

@@ -17,6 +17,8 @@ const std::vector<MethodInfo>& methods() {
       {"zbuffer", "plain z-buffer, the nearest fragment only", "Catmull 1974", "cpu", "1", "8 bytes a pixel of the tiles in flight",
        "covered pixels / N", false},
 #if COPEEL_GL
+      {"auto", "the fastest robust method that fits the memory", "after Vasilakis and Fudos 2013, 4.4", "gl", "the method's, and a look",
+       "the method's, at most --memory from 28 a pixel on", "1", true, drawAuto},
       {"f2b", "front-to-back depth peeling", "Everitt 2001", "gl", "D + 1", "12 a pixel", "D / N", false, drawF2b, "+cull"},
       {"f2b2", "two-pass front-to-back depth peeling", "Vasilakis and Fudos 2013, 4", "gl", "2 D + 1",
        "12 a pixel", "D / N", false, drawF2b2, "+cull"},
@@ -89,7 +91,7 @@ const MethodInfo& chooseMethod(std::string_view backend, std::string_view name) 
 #if !COPEEL_GL
   if (backend == "gl") failMachine("the gl back end is not in this build; use --backend cpu or auto");
 #endif
-  if (name == "auto") name = backend == "gl" ? "ll" : "tile";
+  if (name == "auto") name = backend == "gl" ? "auto" : "tile";
   const MethodInfo* method = findMethod(name);
   if (!method) failUsage("no method '{}' (see copeel methods)", name);
   if (backend != "auto" && method->backend != backend) failUsage("--method {} is one of the {} back end, not of {}", name, method->backend, backend);
