@@ -133,6 +133,10 @@ void GlPass::draw(const View& view, const EyeWinding& eye, CsgFold::Alpha alpha,
     if (!state.deliver(view, sink)) continue;
     stats.passes += counts.passes;
     stats.overflow = counts.method.overflow;
+    if (!counts.method.chosen.empty()) {
+      stats.method = "auto: " + counts.method.chosen;
+      stats.methodReason = counts.method.reason;
+    }
     return;
   }
 }

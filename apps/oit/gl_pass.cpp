@@ -74,6 +74,10 @@ void GlPass::draw(const View& view, const fold::OverTables& tables, const glm::v
   stats.methodBytes = counts.methodBytes;
   stats.objectsDrawn = counts.objectsDrawn;
   stats.passMs = counts.passMs;
+  if (!counts.method.chosen.empty()) {
+    stats.method = "auto: " + counts.method.chosen;
+    stats.methodReason = counts.method.reason;
+  }
 
   const std::vector<std::uint32_t> words = state.renderer.result();
   const std::vector<DepthPlane> depths = targets.depth ? depthPlanes(state.scene, state.planes, view) : std::vector<DepthPlane>();

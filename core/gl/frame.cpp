@@ -115,6 +115,7 @@ void Frame::makeTargets() {
   glNamedFramebufferParameteri(name, GL_FRAMEBUFFER_DEFAULT_HEIGHT, height_);
   buffers_.clear();
   targets_.clear();
+  look.reset();
 }
 
 void Frame::project() {
@@ -211,6 +212,12 @@ const Buffer& Frame::pixelWords(const std::string& name, int slot, std::size_t w
 std::size_t Frame::keptBytes(const std::string& name) const {
   const auto found = buffers_.find(name);
   return found == buffers_.end() ? 0 : found->second.buffer.bytes();
+}
+
+void Frame::releaseBuffers() {
+  buffers_.clear();
+  // Textures of them would hold their memory.
+  std::erase_if(texels_, [](const auto& texture) { return texture.first >= COPEEL_TEXTURE_METHOD; });
 }
 
 std::uint64_t Frame::methodBytes() const {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <glm/vec4.hpp>
@@ -26,6 +27,12 @@ struct FoldSource {
   std::uint32_t stateWords = 0;                      // per pixel and side (front, back), 32-bit words
   std::uint32_t resultWords = 0;                     // per pixel
   std::vector<const Buffer*> tables;                 // bound from COPEEL_BUFFER_FOLD_TABLE on
+};
+
+// What a pass that only counts has seen of the scene.
+struct Look {
+  std::uint64_t fragments = 0;
+  std::uint32_t deepest = 0;        // fragments of a pixel
 };
 
 // States are per pixel: a model of a thousand leaves is one for the cpu back end.
@@ -57,6 +64,11 @@ class Frame {
   const Buffer& pixelWords(const std::string& name, int slot, std::size_t wordsPerPixel = 1);
 
   std::size_t keptBytes(const std::string& name) const;   // of a buffer asked for before, else 0
+
+  void releaseBuffers();   // all of them: what they held is lost, and none is counted any more
+
+  // Of an earlier frame of this size, for the method that keeps it.
+  std::optional<Look> look;
 
   // A colour target of the method's for geometry passes: attachments 0 … count-1 are written, pixel passes read them as textures of the same units.
   void target(const std::string& name, int attachment, GLenum format);

@@ -31,6 +31,7 @@ MethodCounts drawFab(gl::Frame& frame, const MethodOptions& options) {
     if (counts.overflow == 0 || capacity >= most) break;
     capacity = std::min<std::size_t>(missed[1], most);
   }
+  if (counts.overflow > 0 && options.allOrNothing) return counts;
   deliverArrays(frame, file, frame.buffer("fragments", 1, capacity * perPlace), {{"capacity", static_cast<GLuint>(capacity)}});
   return counts;
 }

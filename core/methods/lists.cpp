@@ -62,6 +62,7 @@ MethodCounts drawLists(gl::Frame& frame, const MethodOptions& options, const cha
     if (counts.overflow == 0 || capacity >= most) break;
     capacity = std::min(wanted, most);
   }
+  if (counts.overflow > 0 && options.allOrNothing) return counts;
   frame.texels(heads, COPEEL_TEXTURE_METHOD, GL_R32UI);
   frame.texels(frame.buffer("nodes", 1, capacity * placeBytes), COPEEL_TEXTURE_METHOD + 1, GL_RGB32UI);
   deliverLists(frame, file, defines);

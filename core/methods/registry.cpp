@@ -17,6 +17,8 @@ const std::vector<MethodInfo>& methods() {
       {"zbuffer", "plain z-buffer, the nearest fragment only", "Catmull 1974", "cpu", "1", "8 bytes a pixel of the tiles in flight",
        "covered pixels / N", false},
 #if COPEEL_GL
+      {"auto", "the fastest robust method that fits the memory", "after Vasilakis and Fudos 2013, 4.4", "gl", "the method's, and a look",
+       "the method's, at most --memory from 28 a pixel on", "1", true, drawAuto},
       {"f2b", "front-to-back depth peeling", "Everitt 2001", "gl", "D + 1", "12 a pixel", "D / N", false, drawF2b, "+cull"},
       {"f2b2", "two-pass front-to-back depth peeling", "Vasilakis and Fudos 2013, 4", "gl", "2 D + 1",
        "12 a pixel", "D / N", false, drawF2b2, "+cull"},
@@ -34,6 +36,8 @@ const std::vector<MethodInfo>& methods() {
        "12 + 4 K a pixel", "Σ min(K, C(Z)) / N", false, drawF2bFab, "+cull"},
       {"f2b-kb", "a k-buffer per depth layer", "Vasilakis and Fudos 2013, Algorithm 3", "gl", "2 D + 1",
        "8 + 4 K a pixel", "Σ min(K, C(Z)) / N", false, drawF2bKb, "+cull"},
+      {"hybrid", "peels by depth, and by id where fragments are coplanar", "Copeel; asked for by Vasilakis and Fudos 2013, 5", "gl",
+       "Σ (1 + ⌊C(Z) / 2⌋) + 1", "28 a pixel", "1", true, drawHybrid, "+cull"},
       {"dual", "dual depth peeling", "Bavoil and Myers 2008", "gl", "⌈D / 2⌉ + 1",
        "24 a pixel", "D / N", false, drawDual, "+cull"},
       {"dual-2p", "f2b-2p from both ends", "Vasilakis and Fudos 2013, 3.1.2", "gl", "about Σ ⌈C(Z) / 2⌉ + 1",
@@ -87,7 +91,7 @@ const MethodInfo& chooseMethod(std::string_view backend, std::string_view name) 
 #if !COPEEL_GL
   if (backend == "gl") failMachine("the gl back end is not in this build; use --backend cpu or auto");
 #endif
-  if (name == "auto") name = backend == "gl" ? "ll" : "tile";
+  if (name == "auto") name = backend == "gl" ? "auto" : "tile";
   const MethodInfo* method = findMethod(name);
   if (!method) failUsage("no method '{}' (see copeel methods)", name);
   if (backend != "auto" && method->backend != backend) failUsage("--method {} is one of the {} back end, not of {}", name, method->backend, backend);

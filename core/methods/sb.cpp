@@ -37,6 +37,7 @@ MethodCounts drawSb(gl::Frame& frame, const MethodOptions& options) {
   const std::size_t total = groups.read<std::uint32_t>(2 * kGroups + 1).back();
   const std::size_t most = roomFor(options.memoryBytes, pixelCounts.bytes() + places.bytes() + groups.bytes()) / 8;
   const std::size_t capacity = std::min(total, most);
+  if (capacity < total && options.allOrNothing) return {.iterations = 1, .overflow = total - capacity};
   const gl::Buffer& fragments = frame.buffer("fragments", 3, capacity * 8);
   const gl::Program& fill = frame.geometryProgram(file, "FILL", defines);
   fill.set("capacity", static_cast<GLuint>(capacity));

@@ -9,6 +9,7 @@ namespace copeel {
 std::string toJson(const Stats& stats) {
   nlohmann::ordered_json json;
   json["method"] = stats.method;
+  if (!stats.methodReason.empty()) json["method_reason"] = stats.methodReason;
   json["backend"] = stats.backend;
   json["width"] = stats.width;
   json["height"] = stats.height;

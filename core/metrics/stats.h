@@ -9,6 +9,7 @@ namespace copeel {
 
 struct Stats {
   std::string method;
+  std::string methodReason;                 // why auto chose it
   std::string backend = "cpu";
   int width = 0;                            // pixels
   int height = 0;

@@ -89,6 +89,13 @@ std::pair<std::uint64_t, std::uint64_t> growth(const Stacks& stacks, bool dual) 
   return {repeats, nodes};
 }
 
+// One fragment by the pass that finds a layer, two by each of the others it takes.
+std::uint64_t hybridIterations(const Pixel& pixel) {
+  std::uint64_t sum = 0;
+  for (const Group& group : pixel) sum += 1 + group.size() / 2;
+  return sum;
+}
+
 // What is left of each group when `keep` says of a group which.
 template <class Keep>
 Stacks reduced(const Stacks& stacks, Keep keep) {
@@ -201,6 +208,26 @@ TEST_P(Peeling, everyFragmentById) {
   expectCost(dual, 2 * mostOf(truth, dualIdIterations) + 1, 56 * peeled_.pixels());
 }
 
+TEST_P(Peeling, onDemand) {
+  const Stacks& truth = peeled_.truth();
+  const GlStacks hybrid = peeled_.draw("hybrid");
+  EXPECT_EQ(differing(hybrid.stacks, truth), 0u);
+  expectCost(hybrid, mostOf(truth, hybridIterations) + kPassThatFindsNothing, 28 * peeled_.pixels());
+  EXPECT_LE(hybrid.counts.passes, passesOf3p(truth));
+  // Where nothing is coplanar it is f2b; of three fragments it takes no more passes than f2b2 of one.
+  const std::uint64_t largest = mostOf(truth, [](const Pixel& p) {
+    std::size_t most = 0;
+    for (const Group& group : p) most = std::max(most, group.size());
+    return most;
+  });
+  if (largest <= 1) {
+    EXPECT_EQ(hybrid.counts.passes, depths() + 1);
+  }
+  if (largest <= 3) {
+    EXPECT_LE(hybrid.counts.passes, 2 * depths() + 1);
+  }
+}
+
 TEST_P(Peeling, everyFragmentByLists) {
   for (const bool dual : {false, true}) {
     const GlStacks lists = peeled_.draw(dual ? "dual-ll" : "f2b-ll");
@@ -241,7 +268,7 @@ TEST_P(Peeling, arraysOfK) {
 
 // A pixel that has enough after its first groups gets no others, whatever is left in those beside it.
 TEST_P(Peeling, endsWhenThereIsEnough) {
-  for (const std::string name : {"f2b-zf", "f2b-2p", "f2b-3p", "f2b-ll", "f2b-fab", "f2b-kb", "f2b-kb-zf", "dual-2p", "dual-ll", "dual-fab", "dual-kb"}) {
+  for (const std::string name : {"f2b-zf", "f2b-2p", "f2b-3p", "hybrid", "f2b-ll", "f2b-fab", "f2b-kb", "f2b-kb-zf", "dual-2p", "dual-ll", "dual-fab", "dual-kb"}) {
     SCOPED_TRACE(name);
     const std::uint32_t enough = 2;
     const GlStacks drawn = peeled_.draw(name, {.k = kMostFragments}, enough);
@@ -262,7 +289,7 @@ TEST_P(Peeling, foldsThatCount) {
     for (const Group& group : pixel) fragments += group.size(), largest = std::max(largest, group.size());
     for (const std::size_t word : {fragments, pixel.size(), largest}) expected.push_back(static_cast<std::uint32_t>(word));
   }
-  for (const std::string name : {"f2b-zf", "f2b-2p", "f2b-3p", "f2b-ll", "dual-2p", "dual-ll"}) {
+  for (const std::string name : {"f2b-zf", "f2b-2p", "f2b-3p", "hybrid", "f2b-ll", "dual-2p", "dual-ll"}) {
     EXPECT_EQ(peeled_.count(name), expected) << name;
   }
 }
@@ -270,7 +297,7 @@ TEST_P(Peeling, foldsThatCount) {
 // Objects passed over when they are wholly peeled change nothing but what is drawn.
 TEST_P(Peeling, cullingChangesNothing) {
   if (depths() >= kManyLayers) GTEST_SKIP() << "one object";
-  for (const std::string name : {"f2b", "f2b-3p", "f2b-fab", "dual", "dual-2p", "dual-kb"}) {
+  for (const std::string name : {"f2b", "f2b-3p", "hybrid", "f2b-fab", "dual", "dual-2p", "dual-kb"}) {
     SCOPED_TRACE(name);
     const GlStacks plain = peeled_.draw(name, {.k = 2}), culled = peeled_.draw(name, {.k = 2, .cull = true});
     EXPECT_EQ(culled.delivered, plain.delivered);
@@ -304,6 +331,7 @@ TEST(PeelingCulls, finishedObjects) {
   using Drawn = std::vector<std::uint32_t>;
   EXPECT_EQ(drawnOfThree(cube, "f2b"), (Drawn{3, 3, 2, 2, 1, 1, 0}));
   EXPECT_EQ(drawnOfThree(ball, "f2b"), (Drawn{3, 3, 3, 2, 2, 1, 1}));
+  EXPECT_EQ(drawnOfThree(cube, "hybrid"), (Drawn{3, 3, 2, 2, 1, 1, 0}));
   // Two passes an iteration, then the one that finds nothing.
   EXPECT_EQ(drawnOfThree(cube, "f2b-2p"), (Drawn{3, 3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 0}));
   // From both ends the object in the middle is left, and the room between its layers at last.
@@ -342,6 +370,24 @@ TEST(PeelingTables, vasilakisFudos2011) {
   }
 }
 
+// The passes of 1, 4 and 12 coincident copies of those shells: two kinds of work in one pass make it cheaper than any method it stands between.
+TEST(PeelingTables, hybridOfCopies) {
+  const MeshPointer shells =
+      share(joined(joined(sphere(1, 17, 9), flipped(sphere(0.8, 17, 9))), joined(sphere(0.6, 17, 9), flipped(sphere(0.4, 17, 9)))));
+  const std::pair<std::size_t, std::uint64_t> passes[] = {{1, 8 * 1}, {4, 8 * 3}, {12, 8 * 7}};
+  for (const auto& [count, expected] : passes) {
+    const NamedScene scene{"copies", copies(shells, count), lookAt({3, 2, 4}, {0, 0, 0}, 24, 18, 0.03)};
+    Peeled peeled(scene);
+    const GlStacks drawn = peeled.draw("hybrid"), again = peeled.draw("hybrid"), three = peeled.draw("f2b-3p");
+    EXPECT_EQ(differing(drawn.stacks, peeled.truth()), 0u);
+    EXPECT_EQ(drawn.counts.passes, expected + kPassThatFindsNothing);
+    EXPECT_LT(drawn.counts.passes, three.counts.passes);
+    EXPECT_EQ(again.counts.passes, drawn.counts.passes);
+    EXPECT_EQ(again.counts.methodBytes, drawn.counts.methodBytes);
+    EXPECT_EQ(peeled.count("hybrid"), peeled.count("ll"));
+  }
+}
+
 // Buffers that --memory holds short: what was captured and what was not are all.
 TEST(PeelingMemory, isKept) {
   const NamedScene scene{"copies", copies(share(sphere(1, 13, 7)), 9), lookAt({3, 2, 4}, {0, 0, 0}, 32, 24, 0.03)};
@@ -376,7 +422,7 @@ TEST(PeelingOrder, ofObjectsDoesNotMatter) {
     }
   }
   Peeled reversed(backward);
-  for (const std::string name : {"f2b-zf", "f2b-2p", "f2b-3p", "f2b-ll", "dual-2p", "dual-ll"}) {
+  for (const std::string name : {"f2b-zf", "f2b-2p", "f2b-3p", "hybrid", "f2b-ll", "dual-2p", "dual-ll"}) {
     SCOPED_TRACE(name);
     EXPECT_EQ(differing(reversed.draw(name).stacks, expected), 0u);
   }
@@ -386,7 +432,7 @@ TEST(PeelingOrder, ofObjectsDoesNotMatter) {
 TEST(PeelingDepth, ofTheRasterizer) {
   const NamedScene city = coplanarScenes()[4];
   Peeled peeled(city, gl::DepthSource::Hardware);
-  for (const std::string name : {"f2b-zf", "f2b-2p", "f2b-3p", "f2b-ll", "dual-2p", "dual-ll"}) {
+  for (const std::string name : {"f2b-zf", "f2b-2p", "f2b-3p", "hybrid", "f2b-ll", "dual-2p", "dual-ll"}) {
     SCOPED_TRACE(name);
     EXPECT_EQ(differing(peeled.draw(name, {.cull = true}).stacks, peeled.truth()), 0u);
   }
