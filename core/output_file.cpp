@@ -2,8 +2,10 @@
 // nothing there allocates or locks. No fsync: the promise is against failures of the program, not of the power supply.
 #include "core/output_file.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <array>
@@ -49,9 +51,26 @@ void releaseSignalSlot(int slot) {
   if (slot >= 0) signalSlots[slot].state = SignalSlot::Free;
 }
 
+// The system call itself, since opendir() allocates. Removing moves what follows, so a folder is read until nothing of it can be removed.
+void removeFolderOfFiles(const char* path) {
+  const int folder = ::open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (folder < 0) return;
+  alignas(dirent64) static char entries[4096];
+  for (bool removed = true; removed;) {
+    removed = false;
+    ::lseek(folder, 0, SEEK_SET);
+    const long size = ::syscall(SYS_getdents64, folder, entries, sizeof entries);
+    for (long at = 0; at < size; at += reinterpret_cast<const dirent64*>(entries + at)->d_reclen) {
+      removed |= ::unlinkat(folder, reinterpret_cast<const dirent64*>(entries + at)->d_name, 0) == 0;
+    }
+  }
+  ::close(folder);
+  ::rmdir(path);
+}
+
 extern "C" void removeTemporariesAndDie(int signal) {
   for (SignalSlot& slot : signalSlots) {
-    if (slot.state == SignalSlot::Active) ::unlink(slot.path.data());
+    if (slot.state == SignalSlot::Active && ::unlink(slot.path.data()) != 0) removeFolderOfFiles(slot.path.data());
   }
   // SA_RESETHAND has restored the default action, so this ends the process with the status a shell expects.
   ::raise(signal);
@@ -150,6 +169,10 @@ void writeFile(const std::string& path, std::string_view content) {
   file.write(content);
   file.commit();
 }
+
+RemovedOnSignal::RemovedOnSignal(const std::string& path) : signalSlot_(claimSignalSlot(path)) {}
+
+RemovedOnSignal::~RemovedOnSignal() { releaseSignalSlot(signalSlot_); }
 
 void removeTemporariesOnSignal() {
   struct sigaction action {};

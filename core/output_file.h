@@ -35,6 +35,18 @@ class OutputFile {
 // The whole of a small output in one call.
 void writeFile(const std::string& path, std::string_view content);
 
+// While it lives, a signal removes the file, or the folder with the files in it, too. For temporaries that are not outputs.
+class RemovedOnSignal {
+ public:
+  explicit RemovedOnSignal(const std::string& path);
+  ~RemovedOnSignal();
+  RemovedOnSignal(const RemovedOnSignal&) = delete;
+  RemovedOnSignal& operator=(const RemovedOnSignal&) = delete;
+
+ private:
+  int signalSlot_;
+};
+
 // For main: SIGINT, SIGTERM and SIGHUP remove the temporaries that are open and then end the process as they would have.
 void removeTemporariesOnSignal();
 

@@ -76,6 +76,7 @@ void runAll(std::vector<Command>& commands, unsigned atOnce) {
 TemporaryFolder::TemporaryFolder(const std::string& parent) {
   path_ = (std::filesystem::path(parent) / "copeel.XXXXXX").string();
   if (!mkdtemp(path_.data())) failMachine("{}: no temporary folder can be made: {}", parent, std::strerror(errno));
+  onSignal_.emplace(path_);
 }
 
 TemporaryFolder::~TemporaryFolder() {

@@ -1,10 +1,13 @@
 // Programs run without a shell, several at once, and a folder for their files that goes away again.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <sys/types.h>
+
+#include "core/output_file.h"
 
 namespace copeel::csg {
 
@@ -44,6 +47,7 @@ class TemporaryFolder {
 
  private:
   std::string path_;
+  std::optional<RemovedOnSignal> onSignal_;
 };
 
 }  // namespace copeel::csg

@@ -1,6 +1,10 @@
 // The program ended from outside while it works: it dies as asked, and leaves nothing.
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -43,6 +47,28 @@ TEST_F(Interrupt, AtAnyMomentFilesAreWhole) {
       }
     }
   }
+}
+
+// While openscad runs, its files lie in a temporary folder.
+TEST_F(Interrupt, OpenscadsTemporaryFolderGoes) {
+  std::filesystem::create_directory(folder_ / "tmp");
+  write("slow.scad", "function f(n) = n < 2 ? n : f(n - 1) + f(n - 2);\ncube(f(40));\n");
+  const std::optional<std::string> before = std::getenv("TMPDIR") ? std::optional<std::string>(std::getenv("TMPDIR")) : std::nullopt;
+  setenv("TMPDIR", (folder_ / "tmp").c_str(), 1);
+  Program program(folder_, {"csg", "slow.scad", "-o", "a.png"});
+  before ? setenv("TMPDIR", before->c_str(), 1) : unsetenv("TMPDIR");
+  // The folder is there from before openscad starts; by the time it is seen with a log in it, the program is waiting.
+  const auto hasLog = [&] {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_ / "tmp")) {
+      if (entry.path().filename() == "log") return true;
+    }
+    return false;
+  };
+  for (int i = 0; i < 500 && !hasLog(); ++i) std::this_thread::sleep_for(10ms);
+  EXPECT_TRUE(hasLog());
+  program.send(SIGINT);
+  EXPECT_EQ(program.finish().signal, SIGINT);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_ / "tmp"));
 }
 
 TEST_F(Interrupt, BrokenPipeIsOneLine) {
