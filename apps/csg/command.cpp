@@ -28,10 +28,11 @@ std::vector<MeshArgument> filesOf(const CommandOptions& options, InputKind kind)
   return files;
 }
 
-// An alpha without a colour keeps the scheme's.
-glm::dvec4 lookOf(const MeshArgument& file, const ColorScheme& scheme) {
-  const std::array<double, 3> color = file.color.value_or(scheme.front);
-  return {color[0] / 255, color[1] / 255, color[2] / 255, file.alpha.value_or(1.0)};
+// An alpha without a colour leaves red, green and blue to the scheme, which knows what is subtracted.
+glm::dvec4 lookOf(const MeshArgument& file) {
+  const double alpha = file.alpha.value_or(1.0);
+  if (!file.color) return {-1, -1, -1, alpha};
+  return {(*file.color)[0] / 255, (*file.color)[1] / 255, (*file.color)[2] / 255, alpha};
 }
 
 Model readMeshFiles(const CommandOptions& options, const std::vector<MeshArgument>& files) {
@@ -41,7 +42,7 @@ Model readMeshFiles(const CommandOptions& options, const std::vector<MeshArgumen
   Model model = readMeshes(paths, options.expression, &fileOfLeaf);
   for (std::size_t i = 0; i < model.leaves.size(); ++i) {
     const MeshArgument& file = files[fileOfLeaf[i]];
-    if (file.color || file.alpha) model.leaves[i].color = lookOf(file, options.scheme);
+    if (file.color || file.alpha) model.leaves[i].color = lookOf(file);
   }
   return model;
 }
@@ -74,6 +75,13 @@ Model readModel(CommandOptions& options, InputKind kind, const std::vector<MeshA
   return model;
 }
 
+// An id is a leaf's number from 1 in 16 bits.
+void warnOfSharedIds(Model& model) {
+  constexpr std::size_t kMostIds = 65534;
+  if (model.leaves.size() <= kMostIds) return;
+  model.warnings.push_back(fmt::format("--ids: there are {} leaves; those after the first {} share the id {}", model.leaves.size(), kMostIds, kMostIds + 1));
+}
+
 void run(CommandOptions options) {
   const InputKind kind = inputKind(options);
   const CommonOptions& common = options.common;
@@ -90,6 +98,7 @@ void run(CommandOptions options) {
   std::optional<Model> model;
   steps.read = [&] {
     model = readModel(options, kind, files, scad);
+    if (!common.idsFile.empty()) warnOfSharedIds(*model);
     return model->warnings;
   };
   steps.draw = [&](Stats& stats) {

@@ -48,7 +48,10 @@ void addOptions(CLI::App& command, CommandOptions& options) {
   command.add_option("--expr", options.expression, "combines the meshes, A for the first and so on: '(A - B) & C'; without it they are united")
       ->type_name("EXPRESSION");
   addRepeatable(command, "-D", "NAME=VALUE", "defines a variable of the .scad", [&options](const std::string& text) {
-    if (text.find('=') == std::string::npos || text.front() == '=') failUsage("-D takes NAME=VALUE, not '{}'", text);
+    // openscad would put what is no definition down to the file.
+    const std::size_t equals = text.find('=');
+    const bool hasValue = equals != std::string::npos && text.find_first_not_of(" \t;", equals + 1) != std::string::npos;
+    if (!hasValue || equals == 0) failUsage("-D takes NAME=VALUE, not '{}'", text);
     options.definitions.push_back(text);
   });
   addRepeatable(command, "--section", "AXIS=NUMBER", "cuts away what lies beyond x=10, or before it: -x=10, and shows the cut",
@@ -64,7 +67,7 @@ void addOptions(CLI::App& command, CommandOptions& options) {
 }
 
 InputKind inputKind(const CommandOptions& options) {
-  const auto endingOf = [](const std::string& path) { return std::filesystem::path(path).extension(); };
+  const auto endingOf = [](const std::string& path) { return CLI::detail::to_lower(std::filesystem::path(path).extension().string()); };
   InputKind kind = InputKind::Meshes;
   for (const std::string& input : options.inputs) {
     if (endingOf(input) == ".scad") kind = InputKind::Scad;
@@ -73,6 +76,9 @@ InputKind inputKind(const CommandOptions& options) {
   if (kind != InputKind::Meshes && options.inputs.size() > 1) failUsage("a .scad or .csg stands alone; several files must all be meshes");
   if (kind != InputKind::Meshes && !options.expression.empty()) failUsage("--expr combines meshes; a .scad or .csg has its own tree");
   if (kind != InputKind::Scad && !options.definitions.empty()) failUsage("-D defines variables of a .scad only");
+  if (options.common.method == "zbuffer" && !options.sections.empty()) {
+    failUsage("--section cuts a solid; --method zbuffer draws every leaf whole and knows of none");
+  }
   return kind;
 }
 

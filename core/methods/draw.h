@@ -26,7 +26,7 @@ struct MethodCounts {
   std::uint64_t overflow = 0;                // fragments that a full buffer could not take
   std::uint64_t repeats = 0;                 // passes done again with larger buffers, or because of hazards
   std::uint64_t hazards = 0;                 // read-modify-write hazards that were met
-  std::string chosen, reason;                // auto: the method, and why
+  std::string chosen = {}, reason = {};          // auto: the method, and why
 };
 
 // The frame has a view and a fold, and begin() was called. The method delivers to the fold's states; foldFinish comes after it.
