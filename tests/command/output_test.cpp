@@ -3,6 +3,7 @@
 #include <cstring>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
@@ -48,6 +49,11 @@ TEST_F(Output, MemoryBeyondTheLimitIsTheMachinesLimit) {
   const std::uint32_t count = 100000;
   std::string mesh(84 + std::size_t{50} * count, '\0');
   std::memcpy(mesh.data() + 80, &count, 4);
+  // Corners in one place would be kept once.
+  for (std::uint32_t i = 0; i < 9 * count; ++i) {
+    const float coordinate = static_cast<float>(i);
+    std::memcpy(mesh.data() + 84 + std::size_t{50} * (i / 9) + 12 + 4 * (i % 9), &coordinate, 4);
+  }
   write("large.stl", mesh);
   for (const std::string input : {"long.csg", "large.stl"}) {
     const Outcome outcome = run({"csg", input, "--memory", "4M", "--threads", "1", "-o", "a.png", "--stats", "a.json"});
@@ -126,6 +132,41 @@ TEST_F(Output, MeshesKeepTheirLook) {
   EXPECT_TRUE(redLeft);
   EXPECT_TRUE(blueRight);
   EXPECT_FALSE(other);
+}
+
+// An alpha alone is color(alpha=...): the scheme's green shows where the mesh is subtracted.
+TEST_F(Output, AnAlphaAloneLeavesTheColourToTheScheme) {
+  const auto boxOff = [](int low, int high, int top) {
+    std::string text = "OFF\n8 6 0\n";
+    for (int i = 0; i < 8; ++i) text += fmt::format("{} {} {}\n", i & 1 ? high : low, i & 2 ? high : low, i & 4 ? top : low);
+    return text + "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n";
+  };
+  write("a.off", boxOff(0, 10, 10));
+  write("b.off", boxOff(2, 8, 12));
+  const auto draw = [&](const char* tool, const char* picture) {
+    EXPECT_EQ(run({"csg", "a.off", tool, "--expr", "A - B", "-q", "-o", picture}).exitCode, 0);
+    return contentOf(folder_ / picture);
+  };
+  EXPECT_EQ(draw("b.off:alpha=1", "alpha.png"), draw("b.off", "plain.png"));
+  EXPECT_NE(draw("b.off:alpha=0.5", "half.png"), contentOf(folder_ / "plain.png"));
+}
+
+TEST_F(Output, MoreLeavesThanIdsIsSaid) {
+  std::string text;
+  for (int i = 0; i < 65535; ++i) text += "cube(1);\n";
+  write("many.csg", text);
+  const Words drawing = {"csg", "many.csg", "--imgsize", "1,1", "--camera", "99,99,99,0,0,0,1", "-o", "a.png"};
+  EXPECT_EQ(run(drawing).standardError.find("--ids"), std::string::npos);
+  Words withIds = drawing;
+  withIds.insert(withIds.end(), {"--ids", "a.pgm"});
+  EXPECT_NE(run(withIds).standardError.find("there are 65535 leaves"), std::string::npos);
+}
+
+TEST_F(Output, EndingsInCapitalsAreTheSame) {
+  write("part.CSG", contentOf(folder_ / "part.csg"));
+  EXPECT_EQ(run({"csg", "part.csg", "-q", "-o", "a.png"}).exitCode, 0);
+  EXPECT_EQ(run({"csg", "part.CSG", "-q", "-o", "b.png"}).exitCode, 0);
+  EXPECT_EQ(contentOf(folder_ / "a.png"), contentOf(folder_ / "b.png"));
 }
 
 TEST_F(Output, DashIsStandardOutput) {
