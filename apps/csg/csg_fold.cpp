@@ -166,7 +166,7 @@ void CsgFold::beginPixel(const PixelStack& stack) {
   }
   groupCount_ = 0;
   surfaces_.clear();
-  enough_ = false;
+  hasColor_ = enough_ = false;
   if (tileNeedsStack_) startInsideStack(stack);
   for (std::uint32_t slot : stack.before) addWinding(slots_[slot].object, slots_[slot].side);   // no result turns in front of the window
 }

@@ -17,6 +17,7 @@
 #include "apps/csg/gates.h"
 #include "apps/csg/render_csg.h"
 #include "core/fold/fold.h"
+#include "core/image/image.h"
 
 namespace copeel::csg {
 
@@ -27,11 +28,18 @@ struct Surface {
   std::uint32_t part;
 };
 
-// Where a fold leaves its pixels. `surfaces` are front to back; the last may be opaque.
+// The colour of some surfaces over the background, as the sink wants it: as levels, or as what it adds to the background.
+struct PixelColor {
+  Rgb8 levels;
+  glm::vec3 added{0};
+};
+
+// Where a fold leaves its pixels. `surfaces` are front to back; the last may be opaque. Their colour is asked for once where neighbouring pixels show the same.
 class PixelSink {
  public:
   virtual ~PixelSink() = default;
-  virtual void pixel(int x, int y, std::span<const Surface> surfaces) = 0;
+  virtual PixelColor color(std::span<const Surface> surfaces) const = 0;
+  virtual void pixel(int x, int y, std::span<const Surface> surfaces, const PixelColor& color) = 0;
 };
 
 class CsgFold {
@@ -55,7 +63,12 @@ class CsgFold {
     group_[groupCount_++] = slot;
   }
   bool closeGroup();
-  void endPixel(int x, int y) { sink_.pixel(x, y, surfaces_); }
+  void endPixel(int x, int y) {
+    if (surfaces_.empty()) return;   // images start as background
+    if (!hasColor_) color_ = sink_.color(surfaces_);
+    hasColor_ = true;
+    sink_.pixel(x, y, surfaces_, color_);
+  }
 
  private:
   // A gate of the tile while a pixel is walked.
@@ -128,6 +141,8 @@ class CsgFold {
   std::vector<std::int32_t> change_;           // of each leaf's winding in the group, only while a face is sought
   std::vector<std::uint32_t> risen_, fallen_;  // outputs by the first change that the group brought them
   std::vector<Surface> surfaces_;
+  PixelColor color_;                           // of the surfaces, once it has been asked for
+  bool hasColor_ = false;
   bool enough_ = false;
 };
 

@@ -118,7 +118,8 @@ bool GlPass::State::deliver(const View& view, PixelSink& sink) const {
       const std::uint32_t facet = scene.objects()[object].mesh->facetOf(primitive - scene.firstPrimitive(object));
       surfaces.push_back({primitive, renderer.planes().classOf(object, facet), surface[2], surface[1]});
     }
-    sink.pixel(static_cast<int>(pixel % static_cast<std::size_t>(view.width)), static_cast<int>(pixel / static_cast<std::size_t>(view.width)), surfaces);
+    if (surfaces.empty()) continue;
+    sink.pixel(static_cast<int>(pixel % static_cast<std::size_t>(view.width)), static_cast<int>(pixel / static_cast<std::size_t>(view.width)), surfaces, sink.color(surfaces));
   }
   return true;
 }

@@ -142,7 +142,7 @@ EyeWinding Renderer::State::windingAtEye(const View& view, const std::vector<std
 
 void Renderer::State::drawTiles(const cpu::Frame& frame, PixelSink& sink) {
   const EyeWinding eye = windingAtEye(frame.view, frame.projection.reachesEye);
-    cpu::TileOptions tileOptions;
+  cpu::TileOptions tileOptions;
   tileOptions.decideAllExactly = options.decideAllExactly;
   const cpu::TileCounts counts = cpu::renderTiles(
       frame, tileOptions, [&] { return CsgFold(forest, eye, knownClosed, options.inside, alphaOfLook, look.get(), sink); });
@@ -167,7 +167,7 @@ void Renderer::State::drawPass(const View& view, PixelSink& sink) {
   if (options.method == "zbuffer") {
     cpu::renderNearest(frame, [&](int x, int y, const cpu::TileSlot& slot, const cpu::Tile& tile) {
       const Surface surface{slot.primitive, slot.planeClass, tile.objects[slot.object].object, 0};
-      sink.pixel(x, y, {&surface, 1});
+      sink.pixel(x, y, {&surface, 1}, sink.color({&surface, 1}));
     });
   } else {
     drawTiles(frame, sink);
@@ -203,10 +203,13 @@ class FrameSink : public PixelSink {
     view_ = &view;
     if (!frame_.depth.pixels.empty()) depths_ = depthPlanes(scene, planes, view);
   }
-  void pixel(int x, int y, std::span<const Surface> surfaces) override {
-    if (surfaces.empty()) return;   // the images start as background
-    if (sum_) sum_->at(x, y) += glm::vec3(look_.blend(surfaces) - look_.blend({}));
-    else if (!frame_.color.pixels.empty()) frame_.color.at(x, y) = toRgb8(look_.blend(surfaces));
+  PixelColor color(std::span<const Surface> surfaces) const override {
+    const glm::dvec3 color = look_.blend(surfaces);
+    return sum_ ? PixelColor{{}, glm::vec3(color - look_.blend({}))} : PixelColor{toRgb8(color), {}};
+  }
+  void pixel(int x, int y, std::span<const Surface> surfaces, const PixelColor& color) override {
+    if (sum_) sum_->at(x, y) += color.added;
+    else if (!frame_.color.pixels.empty()) frame_.color.at(x, y) = color.levels;
     if (frame_.depth.pixels.empty() && frame_.ids.pixels.empty() && !shown_) return;
     const auto solid = std::find_if(surfaces.begin(), surfaces.end(), [](const Surface& s) { return s.part == 0; });
     if (solid == surfaces.end()) return;
