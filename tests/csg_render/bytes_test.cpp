@@ -49,12 +49,12 @@ std::vector<Case> cases() {
 
 TEST(Bytes, chooseSimdChangesTheTarget) {
   std::set<std::string> targets;
+  std::string best;
   for (const char* name : {"scalar", "sse4", "best"}) {
     cpu::chooseSimd(name);
-    targets.insert(cpu::simdInUse());
+    targets.insert(best = cpu::simdInUse());
   }
-  cpu::chooseSimd("best");
-  EXPECT_EQ(targets.size(), 3u);
+  EXPECT_EQ(targets.size(), best == "SSE4" ? 2u : 3u);   // a processor may have no better one
   // The least of them has no vectors: "SCALAR", or Highway's emulation of them by loops.
   cpu::chooseSimd("scalar");
   EXPECT_TRUE(std::set<std::string>({"SCALAR", "EMU128"}).contains(cpu::simdInUse())) << cpu::simdInUse();
