@@ -262,12 +262,9 @@ TEST_F(Files, whatOpenscadMustEvaluateIsEvaluatedOnceAndKept) {
 // What carries % or # within hull(), linear_extrude() … is shown beside the one shape that these make.
 TEST_F(Files, marksWithinAShapeAreShown) {
   SKIP_WITHOUT_OPENSCAD();
-  const Model model = parseCsg("hull() { multmatrix([[1,0,0,7]]) { union() { %cube(8); cube(3); } } cube(1); }
-"
-                               "linear_extrude(height = 2) { #square(5); circle(1); *%square(9); }
-"
-                               "minkowski() { cube(1); #hull() { cube(2); cube(1); %sphere(1); } }
-", "a.csg", folder_.path(), options_);
+  const Model model = parseCsg("hull() { multmatrix([[1,0,0,7]]) { union() { %cube(8); cube(3); } } cube(1); }\n"
+                               "linear_extrude(height = 2) { #square(5); circle(1); *%square(9); }\n"
+                               "minkowski() { cube(1); #hull() { cube(2); cube(1); %sphere(1); } }\n", "a.csg", folder_.path(), options_);
   ASSERT_EQ(model.background.size(), 2u);
   ASSERT_EQ(model.highlight.size(), 2u);
   const auto boundsOf = [&](std::uint32_t node) { return boundingBox(*model.leaves.at(model.nodes[node].leaf).mesh); };
