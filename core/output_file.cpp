@@ -1,21 +1,14 @@
-// Atomic output by a temporary and rename(2). The names of open temporaries are also kept in a fixed array that a signal handler may read:
-// nothing there allocates or locks. No fsync: the promise is against failures of the program, not of the power supply.
+// Atomic output by a temporary and rename(2). No fsync: the promise is against failures of the program, not of the power supply.
 #include "core/output_file.h"
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
-#include <array>
 #include <atomic>
 #include <cerrno>
-#include <climits>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <system_error>
 #include <utility>
 
@@ -23,58 +16,6 @@
 
 namespace copeel {
 namespace {
-
-// One open temporary. The path is written while the slot is Claimed, so a handler that sees Active sees all of it.
-struct SignalSlot {
-  enum State { Free, Claimed, Active };
-  std::atomic<int> state{Free};
-  std::array<char, PATH_MAX> path{};
-};
-static_assert(std::atomic<int>::is_always_lock_free, "the signal handler reads the state");
-
-constexpr int kSignalSlotCount = 16;  // outputs open at once; further ones are only not removed on a signal
-std::array<SignalSlot, kSignalSlotCount> signalSlots;
-
-int claimSignalSlot(const std::string& path) {
-  if (path.size() >= PATH_MAX) return -1;
-  for (int i = 0; i < kSignalSlotCount; ++i) {
-    int expected = SignalSlot::Free;
-    if (!signalSlots[i].state.compare_exchange_strong(expected, SignalSlot::Claimed)) continue;
-    std::memcpy(signalSlots[i].path.data(), path.c_str(), path.size() + 1);
-    signalSlots[i].state = SignalSlot::Active;
-    return i;
-  }
-  return -1;
-}
-
-void releaseSignalSlot(int slot) {
-  if (slot >= 0) signalSlots[slot].state = SignalSlot::Free;
-}
-
-// The system call itself, since opendir() allocates. Removing moves what follows, so a folder is read until nothing of it can be removed.
-void removeFolderOfFiles(const char* path) {
-  const int folder = ::open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  if (folder < 0) return;
-  alignas(dirent64) static char entries[4096];
-  for (bool removed = true; removed;) {
-    removed = false;
-    ::lseek(folder, 0, SEEK_SET);
-    const long size = ::syscall(SYS_getdents64, folder, entries, sizeof entries);
-    for (long at = 0; at < size; at += reinterpret_cast<const dirent64*>(entries + at)->d_reclen) {
-      removed |= ::unlinkat(folder, reinterpret_cast<const dirent64*>(entries + at)->d_name, 0) == 0;
-    }
-  }
-  ::close(folder);
-  ::rmdir(path);
-}
-
-extern "C" void removeTemporariesAndDie(int signal) {
-  for (SignalSlot& slot : signalSlots) {
-    if (slot.state == SignalSlot::Active && ::unlink(slot.path.data()) != 0) removeFolderOfFiles(slot.path.data());
-  }
-  // SA_RESETHAND has restored the default action, so this ends the process with the status a shell expects.
-  ::raise(signal);
-}
 
 // The file behind symbolic links, so that renaming replaces the file and not the link.
 std::string resolved(const std::string& path) {
@@ -121,14 +62,14 @@ void OutputFile::openTemporary() {
   static std::atomic<unsigned> counter{0};
   for (int attempt = 0; attempt < 1000; ++attempt) {
     std::string name = fmt::format("{}.copeel-{}-{}.tmp", folderOf(target_), ::getpid(), counter++);
-    signalSlot_ = claimSignalSlot(name);
+    onSignal_.emplace(name);
     descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     const int error = errno;
     if (descriptor_ >= 0) {
       temporary_ = std::move(name);
       return;
     }
-    releaseSignalSlot(std::exchange(signalSlot_, -1));
+    onSignal_.reset();
     if (error != EEXIST) fail(error);
   }
   fail(EEXIST);
@@ -149,7 +90,7 @@ void OutputFile::commit() {
   if (temporary_.empty()) return;
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
   temporary_.clear();
-  releaseSignalSlot(std::exchange(signalSlot_, -1));
+  onSignal_.reset();
 }
 
 void OutputFile::fail(int error) {
@@ -161,30 +102,13 @@ void OutputFile::discard() {
   if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
   temporary_.clear();
-  releaseSignalSlot(std::exchange(signalSlot_, -1));
+  onSignal_.reset();
 }
 
 void writeFile(const std::string& path, std::string_view content) {
   OutputFile file(path);
   file.write(content);
   file.commit();
-}
-
-RemovedOnSignal::RemovedOnSignal(const std::string& path) : signalSlot_(claimSignalSlot(path)) {}
-
-RemovedOnSignal::~RemovedOnSignal() { releaseSignalSlot(signalSlot_); }
-
-void removeTemporariesOnSignal() {
-  struct sigaction action {};
-  action.sa_handler = removeTemporariesAndDie;
-  action.sa_flags = SA_RESETHAND | SA_NODEFER;
-  sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    // A signal that the parent chose to ignore (nohup) stays ignored.
-    struct sigaction previous {};
-    if (::sigaction(signal, nullptr, &previous) == 0 && previous.sa_handler == SIG_IGN) continue;
-    ::sigaction(signal, &action, nullptr);
-  }
 }
 
 }  // namespace copeel

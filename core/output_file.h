@@ -3,9 +3,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+
+#include "core/on_signal.h"
 
 namespace copeel {
 
@@ -28,26 +31,11 @@ class OutputFile {
   std::string path_;       // as the caller named it, for messages
   std::string target_;     // with symbolic links resolved
   std::string temporary_;  // empty when the target is written directly
-  int signalSlot_ = -1;
+  std::optional<RemovedOnSignal> onSignal_;
   int descriptor_ = -1;
 };
 
 // The whole of a small output in one call.
 void writeFile(const std::string& path, std::string_view content);
-
-// While it lives, a signal removes the file, or the folder with the files in it, too. For temporaries that are not outputs.
-class RemovedOnSignal {
- public:
-  explicit RemovedOnSignal(const std::string& path);
-  ~RemovedOnSignal();
-  RemovedOnSignal(const RemovedOnSignal&) = delete;
-  RemovedOnSignal& operator=(const RemovedOnSignal&) = delete;
-
- private:
-  int signalSlot_;
-};
-
-// For main: SIGINT, SIGTERM and SIGHUP remove the temporaries that are open and then end the process as they would have.
-void removeTemporariesOnSignal();
 
 }  // namespace copeel

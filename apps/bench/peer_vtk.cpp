@@ -84,7 +84,7 @@ std::pair<double, std::uint64_t> tileOf(const BenchScene& scene, const View& vie
 }  // namespace
 
 std::vector<PeerEntry> runVtk(int width, int height, int frames, int threads, std::string& note) {
-  const csg::TemporaryFolder folder(std::filesystem::temp_directory_path().string());
+  const csg::TemporaryFolder folder(csg::systemTemporaryFolder());
   writeFile(folder.path() + "/vtk_peeling.py", kVtkScript);
   const Mesh mesh = shells(1, kColumns, kRows);
   writeFile(folder.path() + "/mesh.obj", objOf(mesh));

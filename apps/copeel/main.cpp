@@ -18,7 +18,7 @@
 #include "apps/csg/command.h"
 #include "apps/oit/command.h"
 #include "core/error.h"
-#include "core/output_file.h"
+#include "core/on_signal.h"
 
 namespace {
 
@@ -78,7 +78,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   copeel::keepHeap();
-  copeel::removeTemporariesOnSignal();
+  copeel::cleanUpOnSignal();
   std::signal(SIGPIPE, SIG_IGN);   // a closed pipe is an error of the write, and reported as one
   try {
     return run(argc, argv);

@@ -61,7 +61,9 @@ class Bounds {
         const Leaf& leaf = model_.leaves[node.leaf];
         const auto [entry, fresh] = meshBoxes.try_emplace(leaf.mesh.get());
         if (fresh) entry->second = boundingBox(*leaf.mesh);
-        boxes_[n] = placed(entry->second, leaf.worldFromObject);
+        Box box = entry->second;
+        if (leaf.isFlat) box.min.z = box.max.z = 0;
+        boxes_[n] = placed(box, leaf.worldFromObject);
       }
       for (std::uint32_t i = 0; i < node.childCount; ++i) {
         const Box& child = boxes_[childOf(node, i)];

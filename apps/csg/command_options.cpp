@@ -45,7 +45,8 @@ void addOptions(CLI::App& command, CommandOptions& options) {
   command.add_option("files", options.inputs, "a .scad, a .csg, or meshes (STL, OBJ, OFF, PLY), each with a look if wanted: MESH:color=#rrggbb,alpha=0.3")
       ->required()
       ->type_name("FILE");
-  command.add_option("--expr", options.expression, "combines the meshes, A for the first and so on: '(A - B) & C'; without it they are united")
+  command.add_option("--expr", options.expression, "combines the meshes, A for the first and so on (M27 after Z): '(A - B) & C'; + or | unites, - subtracts, & or * intersects "
+                   "and binds closer; without it they are united")
       ->type_name("EXPRESSION");
   addRepeatable(command, "-D", "NAME=VALUE", "defines a variable of the .scad", [&options](const std::string& text) {
     // openscad would put what is no definition down to the file.

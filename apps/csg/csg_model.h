@@ -21,6 +21,7 @@ struct Leaf {
   glm::dmat4 worldFromObject{1.0};
   // sRGB and alpha, 0 … 1; what is unset, or a negative red, green or blue, the colour scheme decides.
   std::optional<glm::dvec4> color;
+  bool isFlat = false;                      // a 2D shape: a slab to the eye, without height when the model is measured
 };
 
 // Children of node n are childIndices[firstChild … firstChild + childCount), each smaller than n. A Union or Intersection of no children
@@ -31,6 +32,9 @@ struct Node {
   std::uint32_t firstChild = 0;
   std::uint32_t childCount = 0;
 };
+
+// openscad's colour of what carries #.
+inline constexpr glm::dvec4 kHighlightColor(1, 81.0 / 255, 81.0 / 255, 128.0 / 255);
 
 inline constexpr std::uint32_t kNoNode = ~std::uint32_t{0};
 

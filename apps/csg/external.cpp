@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <optional>
 #include <thread>
 
 #include <fmt/format.h>
@@ -20,6 +20,7 @@
 #include "apps/csg/shapes.h"
 #include "core/error.h"
 #include "core/formats/input_file.h"
+#include "core/output_file.h"
 
 namespace copeel::csg {
 namespace {
@@ -83,7 +84,7 @@ std::string identityOf(const std::string& openscad) {
   return fmt::format("{} {}", size, fs::last_write_time(program, error).time_since_epoch().count());
 }
 
-// A subtree written anew: strings escaped, files by their full path, no time stamps.
+// A subtree written anew: strings escaped, files by their full path, without time stamps, which openscad writes but does not know.
 struct Writer {
   const SyntaxTree& tree;
   const std::string& folder;
@@ -99,7 +100,10 @@ struct Writer {
         const Argument& argument = tree.arguments[node.firstArgument + a];
         const Value& value = tree.tape[argument.value];
         const std::string_view name = tree.text.substr(argument.nameBegin, argument.nameLength);
-        if (name == "timestamp" && value.kind == ValueKind::Number) replace(copied, value.textBegin, value.textLength, "0");
+        if (name == "timestamp" && a > 0) {
+          copy(copied, tree.text.rfind(',', argument.nameBegin));
+          copied = value.textBegin + value.textLength;
+        }
         if (value.kind == ValueKind::String) replaceString(copied, name, value);
       }
     }
@@ -127,12 +131,6 @@ struct Writer {
     hash.add({source.data(), source.size()});
   }
 
-  void replace(std::size_t& copied, std::size_t begin, std::size_t length, std::string_view with) {
-    copy(copied, begin);
-    text += with;
-    copied = begin + length;
-  }
-
   void copy(std::size_t& copied, std::size_t end) {
     const std::string_view part = tree.text.substr(copied, end - copied);
     text += part;
@@ -153,14 +151,27 @@ struct Job {
   std::string key;
 };
 
-// The outermost subtrees that only openscad evaluates.
+// The subtrees that only openscad evaluates: the outermost ones, and within those what carries % or # and is shown by itself.
 std::vector<std::uint32_t> externalRoots(const SyntaxTree& tree) {
+  struct Range {
+    std::uint32_t end;
+    bool isEvaluated;     // as part of a root
+  };
   std::vector<std::uint32_t> roots;
+  std::vector<Range> ranges{{static_cast<std::uint32_t>(tree.nodes.size()), false}};
   for (std::uint32_t i = 0; i < tree.nodes.size();) {
-    const bool external = isExternalNode(tree, i);
-    const bool disabled = tree.nodes[i].modifiers & kDisabled;
-    if (external && !disabled) roots.push_back(i);
-    i = external || disabled ? tree.nodes[i].subtreeEnd : i + 1;
+    const SyntaxNode& node = tree.nodes[i];
+    while (i >= ranges.back().end) ranges.pop_back();
+    if (node.modifiers & kDisabled) {
+      i = node.subtreeEnd;
+      continue;
+    }
+    if (ranges.back().isEvaluated && node.modifiers & (kBackground | kHighlight)) ranges.push_back({node.subtreeEnd, false});
+    if (!ranges.back().isEvaluated && isExternalNode(tree, i)) {
+      roots.push_back(i);
+      ranges.push_back({node.subtreeEnd, true});
+    }
+    ++i;
   }
   return roots;
 }
@@ -200,13 +211,16 @@ double shortestDecimal(float value) {
   return result;
 }
 
-MeshPointer readStl(const std::string& path, bool flat) {
+constexpr std::size_t kStlHeadBytes = 84, kStlTriangleBytes = 50;
+
+// A null mesh where the file holds no triangle, nothing where it is no whole binary STL.
+std::optional<MeshPointer> readStl(const std::string& path, bool flat) {
   const InputFile file(path);
   const Source source = file.source();
-  if (source.size() == 0) return nullptr;
   std::uint32_t count = 0;
-  if (source.size() >= 84) std::memcpy(&count, source.data() + 80, 4);
-  if (source.size() != 84 + std::size_t{50} * count) failMachine("{}: is no binary STL; remove it and try again", path);
+  if (source.size() < kStlHeadBytes) return std::nullopt;
+  std::memcpy(&count, source.data() + kStlHeadBytes - 4, 4);
+  if (source.size() != kStlHeadBytes + kStlTriangleBytes * count) return std::nullopt;
   Mesh mesh;
   mesh.singlePrecision = !flat;
   std::unordered_map<FloatKey, std::uint32_t, FloatKeyHash> known;
@@ -214,7 +228,7 @@ MeshPointer readStl(const std::string& path, bool flat) {
     glm::uvec3 triangle;
     for (int corner = 0; corner < 3; ++corner) {
       std::array<float, 3> p;
-      std::memcpy(p.data(), source.data() + 84 + std::size_t{50} * t + 12 + 12 * static_cast<std::size_t>(corner), 12);
+      std::memcpy(p.data(), source.data() + kStlHeadBytes + kStlTriangleBytes * t + 12 + 12 * static_cast<std::size_t>(corner), 12);
       for (float& x : p) x += 0.0f;   // -0 becomes 0
       FloatKey key;
       std::memcpy(key.bits.data(), p.data(), 12);
@@ -238,7 +252,7 @@ class Batch {
  public:
   Batch(const SyntaxTree& tree, const ReadOptions& options, ExternalShapes& result)
       : tree_(tree), options_(options), result_(result), cache_(keyFolder(options.cacheFolder)),
-        temporary_(cache_.empty() ? fs::temp_directory_path().string() : cache_) {}
+        temporary_(cache_.empty() ? systemTemporaryFolder() : cache_) {}
 
   void run(std::vector<Job>& jobs) {
     std::vector<Job*> missing;
@@ -257,18 +271,19 @@ class Batch {
 
   bool take(const Job& job, const std::string& path) {
     std::error_code error;
-    if (cache_.empty() || !fs::is_regular_file(path, error)) return false;
-    give(job, path);
+    return !cache_.empty() && fs::is_regular_file(path, error) && give(job, path);
+  }
+
+  // False where the file is damaged.
+  bool give(const Job& job, const std::string& path) {
+    const std::optional<MeshPointer> mesh = readStl(path, job.flat);
+    if (!mesh) return false;
+    for (const std::uint32_t node : job.nodes) result_.shapes[node] = {job.flat, *mesh};
     return true;
   }
 
-  void give(const Job& job, const std::string& path) {
-    const MeshPointer mesh = readStl(path, job.flat);
-    for (const std::uint32_t node : job.nodes) result_.shapes[node] = {job.flat, mesh};
-  }
-
   Command commandFor(const Job& job) const {
-    std::ofstream(workPath(job, ".scad"), std::ios::binary) << scadText(job);
+    writeFile(workPath(job, ".scad"), scadText(job));
     Command command;
     command.arguments = {options_.openscad, "--export-format", "binstl", "-o", workPath(job, ".stl"), workPath(job, ".scad")};
     command.logPath = workPath(job, ".log");
@@ -278,18 +293,19 @@ class Batch {
   void finish(const Job& job, const Command& command) {
     const SyntaxNode& node = tree_.nodes[job.nodes.front()];
     const std::string place = fmt::format("{}:{}", tree_.name, tree_.lineAt(node.textBegin));
-    const OpenscadLog log = readOpenscadLog(command.logPath, "", fmt::format("{}: openscad on {}", place, tree_.nameOf(node)));
+    const std::string who = fmt::format("{}: openscad on {}", place, tree_.nameOf(node));
+    const OpenscadLog log = readOpenscadLog(command.logPath, workPath(job, ".scad"), who, SourceLines::Meaningless);
     result_.warnings.insert(result_.warnings.end(), log.warnings.begin(), log.warnings.end());
     const std::string made = workPath(job, ".stl");
     std::error_code error;
     const bool exists = fs::is_regular_file(made, error);
     if (!exists && log.emptyObject) {
-      std::ofstream empty(made, std::ios::binary);
+      writeFile(made, std::string(kStlHeadBytes, '\0'));
     } else if (command.exitCode != 0 || !exists) {
       if (!log.errors.empty()) throw Error(ExitCode::Input, log.errors.front());
-      failMachine("{}: openscad on {} failed with code {}", place, tree_.nameOf(node), command.exitCode);
+      failMachine("{} failed with code {}", who, command.exitCode);
     }
-    give(job, made);
+    if (!give(job, made)) failMachine("{} wrote no whole mesh", who);
     // A rename is atomic: another Copeel finds the whole entry or none.
     if (!cache_.empty()) fs::rename(made, entryPath(job), error);
   }

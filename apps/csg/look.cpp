@@ -10,7 +10,7 @@ namespace {
 
 // openscad's colours of what carries % and #, 0 … 255 and alpha.
 const glm::dvec4 kBackgroundPart(180, 180, 180, 128.0 / 255);
-const glm::dvec4 kHighlightPart(255, 81, 81, 128.0 / 255);
+const glm::dvec4 kHighlightPart(glm::dvec3(kHighlightColor) * 255.0, kHighlightColor.a);
 
 // Channel by channel, the leaf's own where it has one.
 glm::dvec4 painted(const Leaf& leaf, glm::dvec4 color) {

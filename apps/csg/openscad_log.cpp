@@ -17,7 +17,7 @@ bool takePrefix(std::string& line, const std::string& prefix) {
 }
 
 // "cause in file F, line N" to "F:N: cause".
-std::string located(std::string message, const std::string& source, const std::string& shownAs) {
+std::string located(std::string message, const std::string& source, const std::string& shownAs, SourceLines lines) {
   while (!message.empty() && (message.back() == ' ' || message.back() == '\r')) message.pop_back();
   const std::size_t place = message.rfind(" in file ");
   const std::size_t line = message.rfind(", line ");
@@ -27,20 +27,21 @@ std::string located(std::string message, const std::string& source, const std::s
   std::string number = message.substr(line + 7);
   number = number.substr(0, number.find_first_not_of("0123456789"));
   const bool isSource = std::filesystem::path(file).filename() == std::filesystem::path(source).filename();
+  if (isSource && lines == SourceLines::Meaningless) return fmt::format("{}: {}", shownAs, message.substr(0, place));
   return fmt::format("{}:{}: {}", isSource ? shownAs : file, number, message.substr(0, place));
 }
 
 }  // namespace
 
-OpenscadLog readOpenscadLog(const std::string& logPath, const std::string& source, const std::string& shownAs) {
+OpenscadLog readOpenscadLog(const std::string& logPath, const std::string& source, const std::string& shownAs, SourceLines lines) {
   OpenscadLog log;
   std::ifstream file(logPath);
   for (std::string line; std::getline(file, line);) {
     if (line.find("op level object is empty") != std::string::npos) log.emptyObject = true;
     if (takePrefix(line, "ERROR: ")) {
-      log.errors.push_back(located(line, source, shownAs));
+      log.errors.push_back(located(line, source, shownAs, lines));
     } else if (takePrefix(line, "WARNING: ")) {
-      std::string warning = located(line, source, shownAs);
+      std::string warning = located(line, source, shownAs, lines);
       if (std::find(log.warnings.begin(), log.warnings.end(), warning) == log.warnings.end()) log.warnings.push_back(std::move(warning));
     } else if (line.compare(0, 10, "Can't open") == 0 || line.compare(0, 11, "Can't parse") == 0) {
       if (log.errors.empty()) log.errors.push_back(fmt::format("{}: {}", shownAs, line));

@@ -12,7 +12,10 @@ struct OpenscadLog {
   bool emptyObject = false;             // it found nothing to export
 };
 
+// Meaningless where the text is one of ours, of which the user knows nothing.
+enum class SourceLines { Shown, Meaningless };
+
 // `source` is the file that was given to openscad; messages about it name it as the user did.
-OpenscadLog readOpenscadLog(const std::string& logPath, const std::string& source, const std::string& shownAs);
+OpenscadLog readOpenscadLog(const std::string& logPath, const std::string& source, const std::string& shownAs, SourceLines lines = SourceLines::Shown);
 
 }  // namespace copeel::csg

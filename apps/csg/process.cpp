@@ -40,7 +40,7 @@ int codeOf(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + 
 
 }  // namespace
 
-Process::Process(const Command& command) : id_(start(command)) {}
+Process::Process(const Command& command) : id_(start(command)), onSignal_(id_) {}
 
 Process::~Process() {
   if (!ended_) kill(id_, SIGKILL);
@@ -51,6 +51,11 @@ Process::~Process() {
 int Process::wait() {
   int status = 0;
   if (!ended_) {
+    // It stays a zombie under its number until the second call.
+    siginfo_t info{};
+    while (waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+    }
+    onSignal_.reset();
     while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {
     }
     exitCode_ = codeOf(status);
@@ -71,6 +76,14 @@ void runAll(std::vector<Command>& commands, unsigned atOnce) {
     running.emplace_back(command);
   }
   while (!running.empty()) waitForOldest();
+}
+
+std::string systemTemporaryFolder() {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  const char* named = std::getenv("TMPDIR");
+  if (error) failMachine("TMPDIR: {}: no folder for temporary files: {}", named ? named : "/tmp", error.message());
+  return folder.string();
 }
 
 TemporaryFolder::TemporaryFolder(const std::string& parent) {

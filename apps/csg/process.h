@@ -7,7 +7,7 @@
 
 #include <sys/types.h>
 
-#include "core/output_file.h"
+#include "core/on_signal.h"
 
 namespace copeel::csg {
 
@@ -30,12 +30,15 @@ class Process {
 
  private:
   pid_t id_;
+  std::optional<EndedOnSignal> onSignal_;
   bool ended_ = false;
   int exitCode_ = -1;
 };
 
 // Runs all of them, at most `atOnce` at a time, and waits. Throws Error{Machine} where one cannot be started.
 void runAll(std::vector<Command>& commands, unsigned atOnce);
+
+std::string systemTemporaryFolder();          // Error{Machine} where TMPDIR names none
 
 class TemporaryFolder {
  public:

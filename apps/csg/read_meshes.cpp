@@ -31,13 +31,13 @@ class Expression {
         }
         continue;
       }
-      ++at_;
       if (c == ')') {
         closeParenthesis();
       } else {
         pushOperator(c);
         wantsOperand = true;
       }
+      ++at_;
     }
     if (wantsOperand) fail("a mesh is missing at the end");
     finish();
@@ -98,8 +98,10 @@ class Expression {
       number = std::min<std::size_t>(10 * number + static_cast<std::size_t>(text_[at_] - '0'), 1'000'000'000);
       index = number - 1;
     }
-    if (index >= paths_.size()) fail(fmt::format("there is no mesh {}: {} given", text_.substr(begin, at_ - begin), paths_.size()));
-    return index;
+    if (index < paths_.size()) return index;
+    const std::string name = text_.substr(begin, at_ - begin);
+    at_ = begin;
+    fail(fmt::format("there is no mesh {}: {} given", name, paths_.size()));
   }
 
   // A file named twice is read once.

@@ -26,7 +26,7 @@ std::string textOf(const std::string& path) {
 
 // The three as openscad sees them at the end of the source: translation, turn, distance.
 std::optional<std::array<double, 7>> askOpenscad(const std::string& path, const ReadOptions& options) {
-  const TemporaryFolder temporary(std::filesystem::temp_directory_path().string());
+  const TemporaryFolder temporary(systemTemporaryFolder());
   const std::string echo = temporary.path() + "/view.echo";
   std::vector<Command> commands(1);
   commands[0].arguments = {options.openscad, "-o", echo};

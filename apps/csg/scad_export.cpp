@@ -1,5 +1,6 @@
 #include "apps/csg/scad_export.h"
 
+#include <cstring>
 #include <filesystem>
 #include <optional>
 
@@ -15,14 +16,17 @@ namespace fs = std::filesystem;
 // Says what is wrong with a file better than openscad does. Absolute paths: openscad takes a relative output for one beside the source, and a
 // name with a leading dash for an option.
 std::string sourceOf(const std::string& path) {
-  const InputFile readable(path);
+  const InputFile file(path);
+  const Source source = file.source();
+  const void* zero = source.size() ? std::memchr(source.data(), 0, source.size()) : nullptr;
+  if (zero) source.failAtLine(static_cast<std::size_t>(static_cast<const char*>(zero) - source.data()), "a zero byte: openscad would read no further");
   return fs::absolute(path).string();
 }
 
 }  // namespace
 
 ScadExport::ScadExport(const std::string& path, const ReadOptions& options)
-    : path_(path), source_(sourceOf(path)), options_(options), temporary_(fs::temp_directory_path().string()),
+    : path_(path), source_(sourceOf(path)), options_(options), temporary_(systemTemporaryFolder()),
       pipe_(temporary_.path() + "/model.csg"), process_(command()) {}
 
 Command ScadExport::command() const {

@@ -71,6 +71,33 @@ TEST_F(Interrupt, OpenscadsTemporaryFolderGoes) {
   EXPECT_TRUE(std::filesystem::is_empty(folder_ / "tmp"));
 }
 
+// Not for the shell alone, which sends an interrupt to all of them: who ends copeel by its number ends openscad too.
+TEST_F(Interrupt, OpenscadGoesToo) {
+  const std::string path = std::getenv("PATH") ? std::getenv("PATH") : "/usr/bin:/bin";
+  write("openscad", "#!/bin/sh\necho $$ >id.tmp\nmv id.tmp id\nexec sleep 60\n");
+  std::filesystem::permissions(folder_ / "openscad", std::filesystem::perms::owner_all);
+  write("part.scad", "cube(1);");
+  write("hull.csg", "hull() { cube(1); }");
+  for (const std::string input : {"part.scad", "hull.csg"}) {
+    setenv("PATH", (folder_.string() + ":" + path).c_str(), 1);
+    Program program(folder_, {"csg", input, "-o", "a.png"});
+    setenv("PATH", path.c_str(), 1);
+    for (int i = 0; i < 500 && !std::filesystem::exists(folder_ / "id"); ++i) std::this_thread::sleep_for(10ms);
+    const pid_t openscad = std::stoi(contentOf(folder_ / "id"));
+    std::filesystem::remove(folder_ / "id");
+    EXPECT_EQ(kill(openscad, 0), 0);
+    program.send(SIGTERM);
+    EXPECT_EQ(program.finish().signal, SIGTERM);
+    // It is no child of ours: whoever takes in orphans may take a moment, and a zombie still has a number.
+    const auto runs = [&] {
+      const std::string status = contentOf("/proc/" + std::to_string(openscad) + "/stat");
+      return !status.empty() && status.find(") Z ") == std::string::npos;
+    };
+    for (int i = 0; i < 500 && runs(); ++i) std::this_thread::sleep_for(10ms);
+    EXPECT_FALSE(runs()) << input;
+  }
+}
+
 TEST_F(Interrupt, BrokenPipeIsOneLine) {
   Program program(folder_, {"csg", "part.csg", "-o", "-", "--imgsize", "3000,3000"});
   program.closeStandardOutput();

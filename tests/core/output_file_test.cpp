@@ -118,7 +118,7 @@ TEST(OutputFile, aFullDiskLeavesNothing) {
 TEST(OutputFile, aSignalRemovesTheTemporariesAndEndsTheProcess) {
   const TemporaryFolder folder;
   const int status = statusOfChild([&] {
-    removeTemporariesOnSignal();
+    cleanUpOnSignal();
     OutputFile first(folder.file("a")), second(folder.file("b"));
     first.write("half");
     ::raise(SIGINT);

@@ -95,6 +95,34 @@ TEST(Semantics, theOuterColourShows) {
   EXPECT_EQ(model.leaves[4].color->w, 0.25);
 }
 
+const glm::dvec4 kUncolored(-1);
+glm::dvec4 colorOf(const Model& model, std::size_t leaf) { return model.leaves.at(leaf).color.value_or(kUncolored); }
+
+// openscad's preview takes what carries # out of a union and shows it translucent: what lies within and behind is seen.
+TEST(Semantics, whatCarriesHashIsSeenThroughInAUnion) {
+  const Model beside = parse("#cube(9); multmatrix([[1,0,0,1]]) { #group() { cube(1); } } sphere(1);");
+  EXPECT_TRUE(beside.highlight.empty());
+  EXPECT_EQ(colorOf(beside, 0), kHighlightColor);
+  EXPECT_EQ(colorOf(beside, 1), kHighlightColor);
+  EXPECT_EQ(colorOf(beside, 2), kUncolored);
+  // A difference is marked by its first operand, an intersection or a union by all of them.
+  const Model product = parse("difference() { #cube(1); color([0,0,1]) cube(1); } intersection() { #cube(1); #cube(1); } union() { #cube(1); #cube(1); } cube(2);");
+  EXPECT_TRUE(product.highlight.empty());
+  for (std::size_t leaf = 0; leaf < 6; ++leaf) EXPECT_EQ(colorOf(product, leaf), kHighlightColor) << leaf;
+  EXPECT_EQ(colorOf(product, 6), kUncolored);
+}
+
+// Where it is no operand of the union that is seen, it lies over the solid.
+TEST(Semantics, whatCarriesHashElsewhereLiesOverTheSolid) {
+  for (const char* text : {"#cube(1);", "#cube(1); #sphere(1);", "difference() { cube(2); #cube(1); } cube(3);", "intersection() { #cube(2); cube(1); } cube(3);",
+                           "difference() { union() { #cube(1); cube(2); } cube(1); } cube(3);", "render() { #cube(1); cube(2); } cube(3);",
+                           "render() { #cube(1); } cube(3);"}) {
+    const Model model = parse(text);
+    EXPECT_EQ(model.highlight.size(), 1u) << text;
+    for (const Leaf& leaf : model.leaves) EXPECT_FALSE(leaf.color.has_value()) << text;
+  }
+}
+
 TEST(Semantics, modifiersInsideTrees) {
   const Model model = parse("difference() { cube(3); #cube(1); %sphere(1); } multmatrix([[1,0,0,9]]) { %group() { cube(2); } }");
   ASSERT_EQ(model.highlight.size(), 1u);
@@ -170,6 +198,8 @@ TEST_F(Files, scadErrorsAreOneLine) {
   EXPECT_EQ(failure(assertion), assertion + ":3: Assertion 'false' failed: \"no\"");
   EXPECT_NE(failure(folder_.path() + "/none.scad").find("none.scad"), std::string::npos);
   EXPECT_NE(failure(folder_.path()).find(folder_.path()), std::string::npos);
+  const std::string zero = write("zero.scad", std::string("cube(1);\nsphere(2\0);", 20));
+  EXPECT_EQ(failure(zero), zero + ":2: a zero byte: openscad would read no further");
   options_.openscad = "no-such-openscad";
   EXPECT_EQ(failure(bad, ExitCode::Machine), "no-such-openscad: cannot be run: No such file or directory");
 }
@@ -229,6 +259,61 @@ TEST_F(Files, whatOpenscadMustEvaluateIsEvaluatedOnceAndKept) {
   EXPECT_EQ(fileCount(options_.cacheFolder), 8u);
 }
 
+// What carries % or # within hull(), linear_extrude() … is shown beside the one shape that these make.
+TEST_F(Files, marksWithinAShapeAreShown) {
+  SKIP_WITHOUT_OPENSCAD();
+  const Model model = parseCsg("hull() { multmatrix([[1,0,0,7]]) { union() { %cube(8); cube(3); } } cube(1); }\n"
+                               "linear_extrude(height = 2) { #square(5); circle(1); *%square(9); }\n"
+                               "minkowski() { cube(1); #hull() { cube(2); cube(1); %sphere(1); } }\n", "a.csg", folder_.path(), options_);
+  ASSERT_EQ(model.background.size(), 2u);
+  ASSERT_EQ(model.highlight.size(), 2u);
+  const auto boundsOf = [&](std::uint32_t node) { return boundingBox(*model.leaves.at(model.nodes[node].leaf).mesh); };
+  EXPECT_EQ(model.leaves.at(model.nodes[model.background[0]].leaf).worldFromObject[3].x, 7);
+  EXPECT_EQ(boundsOf(model.background[0]).max, glm::dvec3(8));
+  EXPECT_EQ(boundsOf(model.highlight[0]).max, glm::dvec3(5, 5, 0.5));
+  EXPECT_EQ(boundsOf(model.highlight[1]).max, glm::dvec3(2));
+  EXPECT_EQ(model.nodes[model.root].childCount, 3u) << "three shapes alone are the solid";
+}
+
+// Copeel's own files and what only they hold are no business of the user.
+TEST_F(Files, warningsAboutShapesNameThePlaceInTheModel) {
+  SKIP_WITHOUT_OPENSCAD();
+  write("s.dat", "0 1\n1 2\n");
+  const std::string surface = "surface(file = \"s.dat\", center = false, invert = false, convexity = 1, timestamp = 17);";
+  EXPECT_EQ(parseCsg(surface, "a.csg", folder_.path(), options_).warnings, std::vector<std::string>{}) << "openscad writes time stamps, but warns of them";
+  const Model model = parseCsg("cube(1);\nhull() { cube(1, flavour = 2); }", "a.csg", folder_.path(), options_);
+  EXPECT_EQ(model.warnings, std::vector<std::string>{"a.csg:2: openscad on hull: variable flavour not specified as parameter"});
+}
+
+// A power cut may leave an entry empty or half: it is neither believed nor in the way.
+TEST_F(Files, aDamagedEntryIsMadeAnew) {
+  SKIP_WITHOUT_OPENSCAD();
+  const std::string text = "hull() { cube(size = 2); }";
+  const auto bounds = [&] {
+    const Model model = parseCsg(text, "a.csg", folder_.path(), options_);
+    return model.leaves.empty() ? Box{} : boundingBox(*model.leaves[0].mesh);
+  };
+  EXPECT_EQ(bounds().max, glm::dvec3(2));
+  const std::filesystem::path entry = std::filesystem::directory_iterator(options_.cacheFolder)->path();
+  const std::uintmax_t size = std::filesystem::file_size(entry);
+  for (const std::uintmax_t left : {std::uintmax_t{0}, std::uintmax_t{83}, size - 1}) {
+    std::filesystem::resize_file(entry, left);
+    EXPECT_EQ(bounds().max, glm::dvec3(2)) << left;
+    EXPECT_EQ(std::filesystem::file_size(entry), size);
+  }
+  // What is nothing is kept too.
+  const Model nothing = parseCsg("hull();", "a.csg", folder_.path(), options_);
+  EXPECT_TRUE(nothing.leaves.empty());
+  EXPECT_EQ(fileCount(options_.cacheFolder), 2u);
+}
+
+TEST_F(Files, aMeshCutShortIsTheMachinesFault) {
+  options_.openscad = write("openscad", "#!/bin/sh\nprintf junk >\"$4\"\n");
+  std::filesystem::permissions(options_.openscad, std::filesystem::perms::owner_all);
+  EXPECT_EQ(failureOf([&] { parseCsg("hull() { cube(1); }", "a.csg", folder_.path(), options_); }, ExitCode::Machine),
+            "a.csg:1: openscad on hull wrote no whole mesh");
+}
+
 TEST_F(Files, textWithQuotesAndBackslashes) {
   SKIP_WITHOUT_OPENSCAD();
   const std::string csg = csgBy("linear_extrude(2) text(\"a\\\"b\\\\ü)\", size = 10); text(\"I\");");
@@ -274,6 +359,11 @@ TEST_F(Files, expressionsOverMeshes) {
     const std::vector<std::string> few = std::string(bad)[0] == 'M' ? paths : std::vector<std::string>{path, path, path};
     EXPECT_NE(failureOf([&] { readMeshes(few, bad); }, ExitCode::Usage), "no failure") << bad;
   }
+  const auto place = [&](const char* text) { return failureOf([&] { readMeshes({path, path}, text); }, ExitCode::Usage).substr(0, 24); };
+  EXPECT_EQ(place("A ^ B"), "expression: character 3:");
+  EXPECT_EQ(place("A )"), "expression: character 3:");
+  EXPECT_EQ(place("A - C"), "expression: character 5:");
+  EXPECT_EQ(place("A - M7"), "expression: character 5:");
   EXPECT_EQ(shapeOf(readMeshes({path}, std::string(100000, '(') + "A" + std::string(100000, ')'))), "0");
 }
 
