@@ -40,6 +40,7 @@ struct FoldSource {
 struct Look {
   std::uint64_t fragments = 0;
   std::uint32_t deepest = 0;        // fragments of a pixel
+  bool wasTooLittle = false;        // a method met more: the next look is at all pixels
 };
 
 // States are per pixel: a model of a thousand leaves is one for the cpu back end.
