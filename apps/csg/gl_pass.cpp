@@ -89,7 +89,8 @@ void GlPass::State::setFold(const std::vector<std::uint32_t>& words, const EyeWi
   fold.defines = {{"FOLD", "apps/csg/csg_fold.glsl"}};
   fold.stateWords = static_cast<std::uint32_t>(stateWords(scene.objects().size(), gates.nodes().size(), surfaceLimit));
   fold.resultWords = static_cast<std::uint32_t>(1 + kSurfaceWords * surfaceLimit);
-  fold.tables = {&model, &fromStack};
+  fold.tables = {{&model}, {&fromStack}};
+  fold.inMemory = true;
   renderer.setFold(fold);
 }
 

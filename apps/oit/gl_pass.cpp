@@ -3,14 +3,12 @@
 
 #include <bit>
 
+#include "apps/oit/over_buffers.h"
 #include "core/gl/measure.h"
 #include "core/parallel.h"
 
 namespace copeel::oit {
 namespace {
-
-// Of core/gl/fold_over.glsl.
-constexpr std::uint32_t kStateWords = 22, kResultWords = 11;
 
 double doubleOf(const std::uint32_t* words) { return std::bit_cast<double>(std::uint64_t{words[1]} << 32 | words[0]); }
 
@@ -34,13 +32,11 @@ struct GlPass::State {
   State(const Scene& s, const PlaneClasses& p, const MethodOptions& o)
       : scene(s), planes(p), options(o), renderer(s, p, o.hardwareDepth ? gl::DepthSource::Hardware : gl::DepthSource::Planes) {}
 
-  void setFold(const fold::OverTables& tables, bool mayEnd);
-
   const Scene& scene;
   const PlaneClasses& planes;
   MethodOptions options;
   gl::Renderer renderer;
-  gl::Buffer bases, ranges, shades;
+  OverBuffers buffers;
 };
 
 GlPass::GlPass(const Scene& scene, const PlaneClasses& planes, const MethodOptions& options)
@@ -48,26 +44,11 @@ GlPass::GlPass(const Scene& scene, const PlaneClasses& planes, const MethodOptio
 
 GlPass::~GlPass() = default;
 
-void GlPass::State::setFold(const fold::OverTables& tables, bool mayEnd) {
-  // Shaders know a primitive, not which of its object it is: the object's first is taken off here, modulo 2^32.
-  std::vector<fold::BaseRange> shifted = tables.ranges;
-  for (std::uint32_t object = 0; object < shifted.size(); ++object) shifted[object].first -= shifted[object].stride * scene.firstPrimitive(object);
-  bases = gl::Buffer(tables.bases);
-  ranges = gl::Buffer(shifted);
-  shades = gl::Buffer(tables.shades);
-  gl::FoldSource fold;
-  fold.defines = {{"FOLD", "core/gl/fold_over.glsl"}, {"FOLD_MAY_END", mayEnd ? "1" : "0"}};
-  fold.stateWords = kStateWords;
-  fold.resultWords = kResultWords;
-  fold.tables = {&bases, &ranges, &shades};
-  renderer.setFold(fold);
-}
-
 void GlPass::draw(const View& view, const fold::OverTables& tables, const glm::vec3& background, bool mayEnd, const MethodInfo& method,
                   const Targets& targets, Stats& stats) {
   State& state = *state_;
   state.renderer.setView(view);
-  state.setFold(tables, mayEnd);
+  state.renderer.setFold(state.buffers.upload(state.scene, tables, mayEnd));
   const gl::FrameCounts counts = state.renderer.draw(method.draw, state.options);
   stats.passes += counts.passes;
   stats.overflow = counts.method.overflow;
@@ -82,9 +63,9 @@ void GlPass::draw(const View& view, const fold::OverTables& tables, const glm::v
   const std::vector<std::uint32_t> words = state.renderer.result();
   const std::vector<DepthPlane> depths = targets.depth ? depthPlanes(state.scene, state.planes, view) : std::vector<DepthPlane>();
   const auto width = static_cast<std::size_t>(view.width);
-  parallelFor(words.size() / kResultWords, 1 << 12, [&](std::size_t begin, std::size_t end) {
+  parallelFor(words.size() / kOverResultWords, 1 << 12, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i) {
-      const std::uint32_t* pixel = words.data() + i * kResultWords;
+      const std::uint32_t* pixel = words.data() + i * kOverResultWords;
       if (pixel[9] == 0) continue;
       const int x = static_cast<int>(i % width), y = static_cast<int>(i / width);
       targets.put(x, y, resultOf(pixel, background));

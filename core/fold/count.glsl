@@ -19,8 +19,10 @@ void foldLoad(uint side) {
   countOpen = foldStates[at + 3u];
 }
 
+void foldReset(uint side) { countFragments = countGroups = countLargest = countOpen = 0u; }
+
 void foldInitial(uint side) {
-  countFragments = countGroups = countLargest = countOpen = 0u;
+  foldReset(side);
   foldStore(side);
 }
 
@@ -34,12 +36,18 @@ bool foldCloseGroup(uint key) {
   return false;
 }
 
+void countWrite(uint fragments, uint groups, uint largest) {
+  uint at = pixelIndex() * 3u;
+  foldResults[at] = fragments;
+  foldResults[at + 1u] = groups;
+  foldResults[at + 2u] = largest;
+}
+
+void foldFinishFront() { countWrite(countFragments, countGroups, countLargest); }
+
 void foldFinish() {
   foldLoad(COPEEL_BACK);
   uint fragments = countFragments, groups = countGroups, largest = countLargest;
   foldLoad(COPEEL_FRONT);
-  uint at = pixelIndex() * 3u;
-  foldResults[at] = fragments + countFragments;
-  foldResults[at + 1u] = groups + countGroups;
-  foldResults[at + 2u] = max(largest, countLargest);
+  countWrite(fragments + countFragments, groups + countGroups, max(largest, countLargest));
 }

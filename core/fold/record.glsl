@@ -21,8 +21,13 @@ void foldLoad(uint side) {
   recordSide = side;
 }
 
-void foldInitial(uint side) {
+void foldReset(uint side) {
   recordCount = recordGroups = 0u;
+  recordSide = side;
+}
+
+void foldInitial(uint side) {
+  foldReset(side);
   foldStore(side);
 }
 
@@ -45,6 +50,11 @@ bool foldCloseGroup(uint key) {
 #else
   return false;
 #endif
+}
+
+void foldFinishFront() {
+  foldResults[recordAt()] = recordCount;
+  foldResults[recordAt() + 1u] = 0u;
 }
 
 void foldFinish() {

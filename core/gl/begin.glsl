@@ -1,4 +1,4 @@
-// The passes that every frame has: the fold's states at the beginning, and their results at the end.
+// The passes of every frame whose fold has states in memory: their beginning, and their results at the end.
 #include "core/gl/frame.glsl"
 #include "core/gl/fold.glsl"
 

@@ -8,6 +8,11 @@
 //   void foldStore(uint side)
 //   void foldFinish()                 joins both sides and writes the pixel's result
 //
+// and, where its state is not in memory alone, for methods that deliver a pixel in one invocation, by foldFront() alone (FOLD_WHOLE):
+//
+//   void foldReset(uint side)         the state at its beginning, and not to memory
+//   void foldFinishFront()            writes the result of the side that was reset and delivered to
+//
 // A front side may be given all its groups in one invocation (A-buffers) or over many passes. A group is never split between the sides.
 layout(std430, binding = COPEEL_BUFFER_FOLD_STATE) buffer FoldStates { uint foldStates[]; };
 layout(std430, binding = COPEEL_BUFFER_FOLD_RESULT) writeonly buffer FoldResults { uint foldResults[]; };
@@ -16,3 +21,19 @@ layout(std430, binding = COPEEL_BUFFER_FOLD_RESULT) writeonly buffer FoldResults
 uint foldStateAt(uint side, uint words) { return (pixelIndex() * 2u + side) * words; }
 
 #include FOLD
+
+// Around the delivery of a pixel, in one invocation, from memory or without.
+void foldOpen() {
+#ifdef FOLD_WHOLE
+  foldReset(COPEEL_FRONT);
+#else
+  foldLoad(COPEEL_FRONT);
+#endif
+}
+void foldShut() {
+#ifdef FOLD_WHOLE
+  foldFinishFront();
+#else
+  foldStore(COPEEL_FRONT);
+#endif
+}

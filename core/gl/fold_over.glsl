@@ -5,13 +5,11 @@
 #include "core/fold/common_glsl.h"
 #include "core/fold/over.glsl"
 
-struct OverPrimitive {
-  uint planeClass, object;
-};
-layout(std430, binding = COPEEL_BUFFER_PRIMITIVES) readonly buffer OverPrimitives { OverPrimitive overPrimitives[]; };
-layout(std430, binding = COPEEL_BUFFER_FOLD_TABLE) readonly buffer OverBases { vec4 overBases[]; };
-layout(std430, binding = COPEEL_BUFFER_FOLD_TABLE + 1) readonly buffer OverRanges { uvec2 overRanges[]; };   // per object: base = x + y · primitive
-layout(std430, binding = COPEEL_BUFFER_FOLD_TABLE + 2) readonly buffer OverShades { float overShades[]; };
+// As texels, as in fragment.glsl.
+layout(binding = COPEEL_TEXTURE_PRIMITIVES) uniform usamplerBuffer overPrimitives;          // plane class, object
+layout(binding = COPEEL_TEXTURE_FOLD_TABLE) uniform samplerBuffer overBases;
+layout(binding = COPEEL_TEXTURE_FOLD_TABLE + 1) uniform usamplerBuffer overRanges;          // per object: base = x + y · primitive
+layout(binding = COPEEL_TEXTURE_FOLD_TABLE + 2) uniform samplerBuffer overShades;           // per plane class
 
 #define OVER_STATE_WORDS 22u
 #define OVER_RESULT_WORDS 11u
@@ -63,17 +61,21 @@ void foldLoad(uint side) {
   overOpen = foldStates[at + 21u];
 }
 
-void foldInitial(uint side) {
+void foldReset(uint side) {
+  overSide = side;
   overBegin(overMain);
   overBegin(overRest);
   overNearest = overGroupFront = overGroupBehind = overLayers = overLargest = overOpen = 0u;
+}
+
+void foldInitial(uint side) {
+  foldReset(side);
   foldStore(side);
 }
 
 vec4 overColorOf(uint primitive) {
-  OverPrimitive found = overPrimitives[primitive];
-  uvec2 range = overRanges[found.object];
-  return overShade(overBases[range.x + range.y * primitive], overShades[found.planeClass]);
+  uvec2 found = texelFetch(overPrimitives, int(primitive)).xy, range = texelFetch(overRanges, int(found.y)).xy;
+  return overShade(texelFetch(overBases, int(range.x + range.y * primitive)), texelFetch(overShades, int(found.x)).x);
 }
 
 void foldFront(uint id) {
@@ -95,9 +97,11 @@ void foldBehind(uint id) {
 }
 
 bool foldCloseGroup(uint key) {
+#ifndef FOLD_WHOLE   // which takes a group from its front end alone
   if (overSide == COPEEL_FRONT) overMain = overJoin(overMain, overRest);
   else overMain = overJoin(overRest, overMain);
   overBegin(overRest);
+#endif
   uint nearest = overGroupFront != 0u ? overGroupFront : overGroupBehind;
   if (nearest != 0u && (overSide == COPEEL_BACK || overNearest == 0u)) overNearest = nearest;
   overGroupFront = overGroupBehind = 0u;
@@ -107,19 +111,24 @@ bool foldCloseGroup(uint key) {
   return overSide == COPEEL_FRONT && overEnough(overMain) && FOLD_MAY_END != 0;
 }
 
-void foldFinish() {
+void overWrite(OverState whole, uint nearest, uint layers, uint largest) {
   uint at = pixelIndex() * OVER_RESULT_WORDS;
-  foldLoad(COPEEL_BACK);
-  OverState back = overMain;
-  uint nearest = overNearest, layers = overLayers, largest = overLargest;
-  foldLoad(COPEEL_FRONT);
-  OverState whole = overJoin(overMain, back);
   for (uint i = 0u; i < 4u; ++i) {
     uvec2 bits = unpackDouble2x32(i < 3u ? whole.color[i] : whole.transmittance);
     foldResults[at + 2u * i] = bits.x;
     foldResults[at + 2u * i + 1u] = bits.y;
   }
-  foldResults[at + 8u] = overNearest != 0u ? overNearest : nearest;
-  foldResults[at + 9u] = overLayers + layers;
-  foldResults[at + 10u] = max(overLargest, largest);
+  foldResults[at + 8u] = nearest;
+  foldResults[at + 9u] = layers;
+  foldResults[at + 10u] = largest;
+}
+
+void foldFinishFront() { overWrite(overMain, overNearest, overLayers, overLargest); }
+
+void foldFinish() {
+  foldLoad(COPEEL_BACK);
+  OverState back = overMain;
+  uint nearest = overNearest, layers = overLayers, largest = overLargest;
+  foldLoad(COPEEL_FRONT);
+  overWrite(overJoin(overMain, back), overNearest != 0u ? overNearest : nearest, overLayers + layers, max(overLargest, largest));
 }

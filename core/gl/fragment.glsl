@@ -39,11 +39,17 @@ uint keyOfPlane(uint planeClass) {
   return COPEEL_KEY_LEAST + (depthSign > 0 ? shiftedDifference(bits, depthNearest) : shiftedDifference(depthNearest, bits));
 }
 
-// To be asked before anything is written: a plane that holds the eye is seen as a line, and what clipping leaves of its triangles is no fragment.
-uint fragmentKey() {
+// The plane class. To be asked before anything is written: a plane that holds the eye is seen as a line, and what clipping leaves of its triangles is no fragment.
+uint fragmentPlane() {
   uint planeClass = texelFetch(primitiveTexels, int(fragmentPrimitive())).r;
   uvec2 range = texelFetch(planes, int(planeClass) * 2 + 1).zw;
   if (uintBitsToFloat(range.x) > uintBitsToFloat(range.y)) discard;
+  return planeClass;
+}
+
+// Likewise.
+uint fragmentKey() {
+  uint planeClass = fragmentPlane();
   if (depthHardware != 0) return clamp(floatBitsToUint(gl_FragCoord.z), COPEEL_KEY_LEAST, COPEEL_KEY_NONE - 1u);
   return keyOfPlane(planeClass);
 }

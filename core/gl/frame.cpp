@@ -170,8 +170,10 @@ void Frame::setFold(const FoldSource& fold) {
   if (stateBytes + resultBytes > kMostFoldBytes) {
     failMachine("gl: {} MB for the state of {} pixels; use --backend cpu", (stateBytes + resultBytes) >> 20, pixelCount());
   }
-  if (states_.bytes() < stateBytes) states_ = Buffer(stateBytes);
   if (results_.bytes() < resultBytes) results_ = Buffer(resultBytes);
+  for (std::size_t i = 0; i < fold.tables.size(); ++i) {
+    if (fold.tables[i].texels != GL_NONE) texels(*fold.tables[i].buffer, static_cast<int>(COPEEL_TEXTURE_FOLD_TABLE + i), fold.tables[i].texels);
+  }
 }
 
 const Program& Frame::geometryProgram(const std::string& file, const std::string& pass, const Defines& defines) {
@@ -217,7 +219,7 @@ std::size_t Frame::keptBytes(const std::string& name) const {
 void Frame::releaseBuffers() {
   buffers_.clear();
   // Textures of them would hold their memory.
-  std::erase_if(texels_, [](const auto& texture) { return texture.first >= COPEEL_TEXTURE_METHOD; });
+  std::erase_if(texels_, [](const auto& texture) { return texture.first >= COPEEL_TEXTURE_METHOD && texture.first < COPEEL_TEXTURE_FOLD_TABLE; });
 }
 
 std::uint64_t Frame::methodBytes() const {
@@ -271,16 +273,31 @@ void Frame::begin() {
   glFrontFace(GL_CW);
   frameBlock_.bindUniform(COPEEL_BLOCK_FRAME);
   scene_.primitives().bindStorage(COPEEL_BUFFER_PRIMITIVES);
-  states_.bindStorage(COPEEL_BUFFER_FOLD_STATE);
   results_.bindStorage(COPEEL_BUFFER_FOLD_RESULT);
-  for (std::size_t i = 0; i < fold_.tables.size(); ++i) fold_.tables[i]->bindStorage(static_cast<GLuint>(COPEEL_BUFFER_FOLD_TABLE + i));
+  for (std::size_t i = 0; i < fold_.tables.size(); ++i) {
+    if (fold_.tables[i].texels == GL_NONE) fold_.tables[i].buffer->bindStorage(static_cast<GLuint>(COPEEL_BUFFER_FOLD_TABLE + i));
+  }
   noDepthTest();
+  usesStates_ = false;
+  if (fold_.inMemory) beginStates();
+}
+
+void Frame::makeStates() {
+  const std::size_t bytes = pixelCount() * fold_.stateWords * 2 * sizeof(std::uint32_t);
+  if (states_.bytes() < bytes) states_ = Buffer(bytes);
+  states_.bindStorage(COPEEL_BUFFER_FOLD_STATE);
+}
+
+void Frame::beginStates() {
+  if (usesStates_) return;
+  usesStates_ = true;
+  makeStates();
   drawPixels(pixelProgram("core/gl/begin.glsl", "BEGIN"));
 }
 
 void Frame::finish() {
   noDepthTest();
-  drawPixels(pixelProgram("core/gl/begin.glsl", "FINISH"));
+  if (usesStates_) drawPixels(pixelProgram("core/gl/begin.glsl", "FINISH"));
   glFinish();
   passBegan_.push_back(std::chrono::steady_clock::now());
   checkErrors("drawing");

@@ -21,18 +21,26 @@ namespace copeel::gl {
 // Where depth keys come from: plane classes (the default), or the rasterizer, as in the papers.
 enum class DepthSource { Planes, Hardware };
 
+// What a fold reads: as storage, or as texels of a format.
+struct FoldTable {
+  const Buffer* buffer = nullptr;
+  GLenum texels = GL_NONE;
+};
+
 // What an application wants of each pixel: GLSL functions (core/gl/fold.glsl says which) and the tables they read.
 struct FoldSource {
   Defines defines;                                   // FOLD: its file; and what the file wants
   std::uint32_t stateWords = 0;                      // per pixel and side (front, back), 32-bit words
   std::uint32_t resultWords = 0;                     // per pixel
-  std::vector<const Buffer*> tables;                 // bound from COPEEL_BUFFER_FOLD_TABLE on
+  bool inMemory = false;                             // it has no state but that in memory: foldReset() and foldFinishFront() are missing
+  std::vector<FoldTable> tables;                     // bound from COPEEL_BUFFER_FOLD_TABLE on, or from COPEEL_TEXTURE_FOLD_TABLE on
 };
 
 // What a pass that only counts has seen of the scene.
 struct Look {
   std::uint64_t fragments = 0;
   std::uint32_t deepest = 0;        // fragments of a pixel
+  bool wasTooLittle = false;        // a method met more: the next look is at all pixels
 };
 
 // States are per pixel: a model of a thousand leaves is one for the cpu back end.
@@ -106,8 +114,15 @@ class Frame {
   std::uint64_t methodBytes() const;   // of the buffers, targets and depth asked for since begin()
   std::uint64_t foldBytes() const { return states_.bytes() + results_.bytes(); }
 
-  void begin();   // of a method: binds what all passes read, sets the fold's states to their beginning, counts anew
-  void finish();  // joins the fold's sides into its results, and waits for the device
+  void begin();   // of a method: binds what all passes read, counts anew
+  // Sets the fold's states to their beginning, once a frame: for methods that come to a pixel in several passes, before their first one. Those that
+  // deliver a pixel in one invocation spare the memory its states take (176 bytes for transparency), unless the fold has no others.
+  void beginStates();
+  bool usesStates() const { return usesStates_; }
+  // What a method's resolve pass is given where it may spare them: RESOLVE then writes results itself.
+  Defines wholeDefines() const { return usesStates_ ? Defines{} : Defines{{"FOLD_WHOLE", "1"}}; }
+  void makeStates();   // the memory alone
+  void finish();  // joins the fold's sides into its results where there are states, and waits for the device
 
  private:
   void makeTargets();
@@ -140,6 +155,7 @@ class Frame {
   VertexArray noVertices_;
   Query query_;
   int targetCount_ = 0;
+  bool usesStates_ = false;
   bool depthTested_ = false;
   std::unique_ptr<Culling> culling_;   // of this view, once it was asked for
   bool culls_ = false;

@@ -16,7 +16,6 @@ layout(std430, binding = COPEEL_BUFFER_METHOD + 3) coherent buffer Missed { uint
 
 void deliverNearest() {
   uint pixel = pixelIndex(), count = seen[pixel];
-  if (count == 0u) return;
 #if defined(PASS_RESOLVE)
   if (count > uint(K)) atomicAdd(missed, count - uint(K));
 #endif

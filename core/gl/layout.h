@@ -35,10 +35,11 @@
 #define COPEEL_BUFFER_OPAQUE 7
 #define COPEEL_BUFFER_METHOD 8          // to 15
 
-// Texture units: 0 to 7 are the method's targets, 8 the depth buffer, from COPEEL_TEXTURE_METHOD on the method's buffers as texels.
+// Texture units: 0 to 7 are the method's targets, 8 the depth buffer, from COPEEL_TEXTURE_METHOD on the method's buffers as texels, then the fold's tables.
 #define COPEEL_TEXTURE_PLANES 9
 #define COPEEL_TEXTURE_PRIMITIVES 10
-#define COPEEL_TEXTURE_METHOD 11
+#define COPEEL_TEXTURE_METHOD 11        // and 12
+#define COPEEL_TEXTURE_FOLD_TABLE 13    // to 15
 
 // The compute shader that projects vertices uses bindings of its own.
 #define COPEEL_BUFFER_VERTICES 0

@@ -4,7 +4,7 @@
 // Pixels of few fragments are sorted in registers. The others wait for passes that each merge one level, as drivers end shaders that loop for
 // too long (sort_array.glsl); a level of LIST_MOST nodes takes 3 turns a node.
 #define LIST_MOST 20000u
-#define LIST_DONE 0xFFFFFFFFu    // the head of a pixel that was delivered
+#define LIST_LONG 0x80000000u    // of the first head of a pixel that was put off
 
 struct Node {
   uint next, key, id;
@@ -65,16 +65,18 @@ void main() {
     for (uint list = 1u; list < uint(LISTS); ++list) rest[list - 1u] = rest[list];
     rest[LISTS - 1] = 0u;
   }
-  if (count == 0u) return;
   if (left != 0u) {
     for (uint list = 0u; list < uint(LISTS); ++list) atomicMax(longest, lengthOf(list));
+    heads[headOf(0u)] |= LIST_LONG;
     return;
   }
-  heads[headOf(0u)] = LIST_DONE;
+#ifndef FOLD_WHOLE
+  if (count == 0u) return;
+#endif
   sortShort(count);
-  foldLoad(COPEEL_FRONT);
+  foldOpen();
   deliverShort(count);
-  foldStore(COPEEL_FRONT);
+  foldShut();
 }
 
 #elif defined(PASS_MERGE)
@@ -82,22 +84,24 @@ void main() {
 uniform uint run;
 
 void main() {
-  uint merges;
-  if (heads[headOf(0u)] == LIST_DONE) return;
+  uint merges, mark = heads[headOf(0u)] & LIST_LONG;
+  if (mark == 0u) return;
+  heads[headOf(0u)] &= ~LIST_LONG;
   for (uint list = 0u; list < uint(LISTS); ++list) {
     if (heads[headOf(list)] != 0u) heads[headOf(list)] = mergeRuns(heads[headOf(list)], run, merges);
   }
+  heads[headOf(0u)] |= mark;
 }
 
 #elif defined(PASS_LONG)
 
 void main() {
-  if (heads[headOf(0u)] == LIST_DONE) return;
-  foldLoad(COPEEL_FRONT);
+  if ((heads[headOf(0u)] & LIST_LONG) == 0u) return;
+  foldOpen();
   for (uint list = 0u; list < uint(LISTS); ++list) {
-    if (deliverList(heads[headOf(list)])) break;
+    if (deliverList(heads[headOf(list)] & ~LIST_LONG)) break;
   }
-  foldStore(COPEEL_FRONT);
+  foldShut();
 }
 
 #endif

@@ -1,5 +1,6 @@
 // Sorts the contiguous fragments of a pixel and delivers them: for the methods that gather into arrays. The file that includes this defines ARRAY, an
-// array of records uvec2 {key, id}, and calls deliverArray() in the passes RESOLVE, HEAP and POP that deliverArrays() draws (core/methods/arrays.h).
+// array of records uvec2 {key, id}, and calls deliverArray() for every pixel in the passes RESOLVE, BEGIN, HEAP, POP and FINISH that deliverArrays() draws
+// (core/methods/arrays.h).
 //
 // Short arrays are sorted in registers. Longer ones become heaps where they lie, in rounds of ARRAY_ROUND steps: drivers end shaders that loop for too long
 // (llvmpipe silently, after 65,536 turns of all loops together), so no pixel may ask for more in one pass. A step is a sift of at most 31 turns, which
@@ -7,6 +8,11 @@
 #include "core/gl/sort_short.glsl"
 
 #define ARRAY_ROUND 1024u
+
+// Where fragment i of the array from `first` is.
+#ifndef ARRAY_PLACE
+#define ARRAY_PLACE(first, i) ((first) + (i))
+#endif
 
 layout(std430, binding = COPEEL_BUFFER_METHOD + 7) coherent buffer Longest { uint longest; };   // array that was put off
 
@@ -20,15 +26,33 @@ void deliverArray(uint first, uint count) {
     atomicMax(longest, count);
     return;
   }
+#ifndef FOLD_WHOLE
+  if (count == 0u) return;
+#endif
   // Later primitives come last and lie in front of their coplanar ones, so the array is read from its end.
   for (uint i = 0u; i < count; ++i) {
-    uvec4 fragment = texelFetch(arrayTexels, int(first + count - 1u - i));
+    uvec4 fragment = texelFetch(arrayTexels, int(ARRAY_PLACE(first, count - 1u - i)));
     sortedKeys[i] = fragment.x, sortedIds[i] = fragment.y;
   }
   sortShort(count);
-  foldLoad(COPEEL_FRONT);
+  foldOpen();
   deliverShort(count);
-  foldStore(COPEEL_FRONT);
+  foldShut();
+}
+
+#elif defined(PASS_BEGIN)
+
+// Rounds keep states in memory, also where pixels of short arrays need none.
+void deliverArray(uint first, uint count) {
+  if (count <= uint(SORT_SHORT)) return;
+  foldInitial(COPEEL_FRONT);
+  foldInitial(COPEEL_BACK);
+}
+
+#elif defined(PASS_FINISH)
+
+void deliverArray(uint first, uint count) {
+  if (count > uint(SORT_SHORT)) foldFinish();
 }
 
 #else
@@ -38,16 +62,16 @@ uniform uint arrayRound;
 // Lets fragment `moving` sink from node `at` to its place in the heap of the first `size` fragments; the nearest is at its root.
 void siftDown(uint first, uint size, uint at, uvec2 moving) {
   for (uint child = 2u * at + 1u; child < size; child = 2u * at + 1u) {
-    uvec2 nearest = ARRAY[first + child];
+    uvec2 nearest = ARRAY[ARRAY_PLACE(first, child)];
     if (child + 1u < size) {
-      uvec2 other = ARRAY[first + child + 1u];
+      uvec2 other = ARRAY[ARRAY_PLACE(first, child + 1u)];
       if (fragmentBefore(other, nearest)) nearest = other, ++child;
     }
     if (!fragmentBefore(nearest, moving)) break;
-    ARRAY[first + at] = nearest;
+    ARRAY[ARRAY_PLACE(first, at)] = nearest;
     at = child;
   }
-  ARRAY[first + at] = moving;
+  ARRAY[ARRAY_PLACE(first, at)] = moving;
 }
 
 #if defined(PASS_HEAP)
@@ -58,7 +82,7 @@ void deliverArray(uint first, uint count) {
   uint done = arrayRound * ARRAY_ROUND, inner = count / 2u;
   for (uint step = 0u; step < ARRAY_ROUND && done + step < inner; ++step) {
     uint node = inner - 1u - done - step;
-    siftDown(first, count, node, ARRAY[first + node]);
+    siftDown(first, count, node, ARRAY[ARRAY_PLACE(first, node)]);
   }
 }
 
@@ -69,21 +93,21 @@ void deliverArray(uint first, uint count) {
 void deliverArray(uint first, uint count) {
   uint size = count - min(count, arrayRound * ARRAY_ROUND);
   if (count <= uint(SORT_SHORT) || size == 0u) return;
-  uint key = size < count ? ARRAY[first + size].x : COPEEL_KEY_NONE;
+  uint key = size < count ? ARRAY[ARRAY_PLACE(first, size)].x : COPEEL_KEY_NONE;
   uint end = size - min(size, ARRAY_ROUND);
   bool enough = key == COPEEL_KEY_DONE;
   foldLoad(COPEEL_FRONT);
   for (; size > end && !enough; --size) {
-    uvec2 nearest = ARRAY[first];
+    uvec2 nearest = ARRAY[ARRAY_PLACE(first, 0u)];
     if (key != COPEEL_KEY_NONE && nearest.x != key) enough = foldCloseGroup(key);
     if (enough) break;
     key = nearest.x;
     foldFront(nearest.y);
-    siftDown(first, size - 1u, 0u, ARRAY[first + size - 1u]);
-    ARRAY[first + size - 1u] = nearest;
+    siftDown(first, size - 1u, 0u, ARRAY[ARRAY_PLACE(first, size - 1u)]);
+    ARRAY[ARRAY_PLACE(first, size - 1u)] = nearest;
   }
   if (size == 0u && !enough) foldCloseGroup(key);
-  if (enough) ARRAY[first + end].x = COPEEL_KEY_DONE;
+  if (enough) ARRAY[ARRAY_PLACE(first, end)].x = COPEEL_KEY_DONE;
   foldStore(COPEEL_FRONT);
 }
 

@@ -8,16 +8,19 @@ namespace copeel {
 namespace {
 
 constexpr std::uint32_t kRound = 1024;   // ARRAY_ROUND of sort_array.glsl
+constexpr std::size_t kShort = 128;      // SORT_SHORT of sort_short.glsl
 
 // What shaders address with 32-bit byte offsets, some drivers with signed ones.
 constexpr std::size_t kMostBytes = 0x7FFF0000;
 
 }  // namespace
 
-void deliverArrays(gl::Frame& frame, const std::string& file, const gl::Buffer& fragments, const Uniforms& uniforms,
-                   const gl::Defines& defines) {
-  const auto program = [&](const char* pass) -> const gl::Program& {
-    const gl::Program& found = frame.pixelProgram(file, pass, defines);
+void deliverArrays(gl::Frame& frame, const std::string& file, const gl::Buffer& fragments, std::size_t most,
+                   const Uniforms& uniforms, const gl::Defines& defines) {
+  const auto program = [&](const char* pass, const gl::Defines& more) -> const gl::Program& {
+    gl::Defines all = defines;
+    all.insert(all.end(), more.begin(), more.end());
+    const gl::Program& found = frame.pixelProgram(file, pass, all);
     for (const auto& [name, value] : uniforms) found.set(name, value);
     return found;
   };
@@ -30,11 +33,15 @@ void deliverArrays(gl::Frame& frame, const std::string& file, const gl::Buffer& 
   const gl::Buffer& putOff = frame.buffer("longest", 7, 4);
   putOff.clear(0);
   frame.texels(fragments, COPEEL_TEXTURE_METHOD, GL_RG32UI);
-  frame.drawPixels(program("RESOLVE"));
-  const std::uint32_t longest = putOff.read<std::uint32_t>(1)[0];
+  frame.drawPixels(program("RESOLVE", frame.wholeDefines()));
+  // To ask means to wait for the pass.
+  const std::uint32_t longest = most > kShort ? putOff.read<std::uint32_t>(1)[0] : 0;
   if (longest == 0) return;
-  drawRounds(program("HEAP"), longest / 2);
-  drawRounds(program("POP"), longest);
+  frame.makeStates();
+  if (!frame.usesStates()) frame.drawPixels(program("BEGIN", {}));
+  drawRounds(program("HEAP", {}), longest / 2);
+  drawRounds(program("POP", {}), longest);
+  if (!frame.usesStates()) frame.drawPixels(program("FINISH", {}));
 }
 
 std::size_t roomFor(std::uint64_t memoryBytes, std::size_t others) {

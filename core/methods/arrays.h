@@ -9,11 +9,11 @@
 
 namespace copeel {
 
-// The method's `file` calls deliverArray(first, count) for each pixel in the passes RESOLVE, HEAP and POP; `fragments` holds its array. Uses buffer slot 7.
-// Passes over the pixels: 1, and 2 + 3n/2048 more where a pixel has n > 128 fragments.
+// The method's `file` calls deliverArray(first, count) for each pixel in the passes RESOLVE, BEGIN, HEAP, POP and FINISH; `fragments` holds its array, no pixel
+// has more than `most`. Uses buffer slot 7. Passes over the pixels: 1, and 4 + 3n/2048 more where a pixel has n > 128 fragments.
 using Uniforms = std::vector<std::pair<const char*, GLuint>>;
-void deliverArrays(gl::Frame& frame, const std::string& file, const gl::Buffer& fragments, const Uniforms& uniforms = {},
-                   const gl::Defines& defines = {});
+void deliverArrays(gl::Frame& frame, const std::string& file, const gl::Buffer& fragments, std::size_t most,
+                   const Uniforms& uniforms = {}, const gl::Defines& defines = {});
 
 // Bytes that a buffer may grow to when the method may use memoryBytes (0: no limit) and needs others beside it.
 std::size_t roomFor(std::uint64_t memoryBytes, std::size_t others);

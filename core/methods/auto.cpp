@@ -30,8 +30,9 @@ struct Candidate {
   std::uint64_t bytes;    // that it needs by the look
 };
 
-gl::Look lookAtScene(gl::Frame& frame) {
-  const int step = frame.pixelCount() <= kSmallImage ? 1 : kStep;
+// The look at some pixels has seen a share of the fragments, and not the deepest pixel.
+gl::Look lookAtScene(gl::Frame& frame, bool atAllPixels) {
+  const int step = atAllPixels || frame.pixelCount() <= kSmallImage ? 1 : kStep;
   const int width = (frame.width() + step - 1) / step, height = (frame.height() + step - 1) / step;
   const std::size_t words = static_cast<std::size_t>(frame.width()) * static_cast<std::size_t>(height);
   const gl::Buffer& seen = frame.buffer("look", 0, words * 4);
@@ -48,12 +49,12 @@ gl::Look lookAtScene(gl::Frame& frame) {
 }  // namespace
 
 MethodCounts drawAuto(gl::Frame& frame, const MethodOptions& options) {
-  if (!frame.look) frame.look = lookAtScene(frame);
+  if (!frame.look || frame.look->wasTooLittle) frame.look = lookAtScene(frame, frame.look.has_value());
   const gl::Look look = *frame.look;
   const std::uint64_t pixels = frame.pixelCount(), budget = options.memoryBytes ? options.memoryBytes : kUnlimited;
   const Candidate candidates[] = {{"fab", drawFab, pixels * (4 + 8 * std::max<std::uint64_t>(look.deepest, 1)) + 12 + kDeliveryBytes},
-                                  {"sb", drawSb, pixels * 8 + look.fragments * 8 + 264 + kDeliveryBytes},
                                   {"ll", drawLl, pixels * 4 + look.fragments * 12 + 68 + kDeliveryBytes},
+                                  {"sb", drawSb, pixels * 8 + look.fragments * 8 + 264 + kDeliveryBytes},
                                   {"hybrid", drawHybrid, 28 * pixels}};
   MethodOptions own = options;
   own.k = std::max(look.deepest, 1u);
@@ -65,8 +66,7 @@ MethodCounts drawAuto(gl::Frame& frame, const MethodOptions& options) {
     const bool last = &candidate == std::end(candidates) - 1;
     if (candidate.bytes > budget && !last) continue;
     MethodCounts counts = candidate.draw(frame, own);
-    // The look saw too little: the next frame has another.
-    if (counts.repeats > 0 || counts.overflow > 0) frame.look.reset();
+    if (counts.repeats > 0 || counts.overflow > 0) frame.look->wasTooLittle = true;
     if (counts.overflow > 0) {
       frame.releaseBuffers();
       tooShort += fmt::format("; {} was too short", candidate.name);

@@ -11,6 +11,7 @@ void drawBucketPairs(gl::Frame& frame, const char* file, std::uint32_t k, const 
   frame.pixelWords("far ids", 3, k).clear(0);
   frame.drawGeometry(frame.geometryProgram(file, "KEYS", defines));
   frame.drawGeometry(frame.geometryProgram(file, "IDS", defines));
+  frame.beginStates();
   frame.drawPixels(frame.pixelProgram(file, "RESOLVE", defines));
 }
 

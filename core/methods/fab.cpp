@@ -32,7 +32,7 @@ MethodCounts drawFab(gl::Frame& frame, const MethodOptions& options) {
     capacity = std::min<std::size_t>(missed[1], most);
   }
   if (counts.overflow > 0 && options.allOrNothing) return counts;
-  deliverArrays(frame, file, frame.buffer("fragments", 1, capacity * perPlace), {{"capacity", static_cast<GLuint>(capacity)}});
+  deliverArrays(frame, file, frame.buffer("fragments", 1, capacity * perPlace), capacity, {{"capacity", static_cast<GLuint>(capacity)}});
   return counts;
 }
 

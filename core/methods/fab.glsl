@@ -7,18 +7,21 @@
 #endif
 
 layout(std430, binding = COPEEL_BUFFER_METHOD) coherent buffer Counts { uint counts[]; };       // fragments of a pixel, taken or not
-layout(std430, binding = COPEEL_BUFFER_METHOD + 1) buffer Fragments { uvec2 fragments[]; };     // {key, id}, `capacity` of each pixel
+layout(std430, binding = COPEEL_BUFFER_METHOD + 1) buffer Fragments { uvec2 fragments[]; };     // {key, id}, the first of all pixels, the second of all, to `capacity`
 layout(std430, binding = COPEEL_BUFFER_METHOD + 2) coherent buffer Overflow { uint overflow, wanted; };
 
 uniform uint capacity;
 
+// Places of one number lie together, so that those that few pixels reach stay out of the caches.
+uint placeOf(uint pixel, uint slot) { return slot * uint(size.x * size.y) + pixel; }
+
 #if defined(PASS_GATHER)
 
 void main() {
-  uint pixel = pixelIndex();
+  uint key = fragmentKey(), pixel = pixelIndex();
   uint slot = atomicAdd(counts[pixel], 1u);
   if (slot < capacity) {
-    fragments[pixel * capacity + slot] = uvec2(fragmentKey(), fragmentId());
+    fragments[placeOf(pixel, slot)] = uvec2(key, fragmentId());
   } else {
     atomicAdd(overflow, 1u);
     atomicMax(wanted, slot + 1u);
@@ -28,12 +31,13 @@ void main() {
 #else
 
 #define ARRAY fragments
+#define ARRAY_PLACE(first, i) placeOf(first, i)
 #include "core/gl/sort_array.glsl"
 
 void main() {
   uint pixel = pixelIndex();
   uint count = min(counts[pixel], capacity);
-  if (count > 0u) deliverArray(pixel * capacity, count);
+  deliverArray(pixel, count);
 }
 
 #endif

@@ -25,7 +25,7 @@ MethodCounts drawNearest(gl::Frame& frame, const MethodOptions& options, const c
   const gl::Buffer& missed = frame.buffer("missed", 3, 8);
   missed.clear(0);
   frame.drawGeometry(frame.geometryProgram(file, "GATHER", gatherDefines));
-  deliverArrays(frame, file, nearest, {}, defines);
+  deliverArrays(frame, file, nearest, options.k, {}, defines);
   const std::vector<std::uint32_t> words = missed.read<std::uint32_t>(2);
   return {.iterations = 1, .overflow = words[0], .repeats = 0, .hazards = words[1]};
 }

@@ -13,6 +13,7 @@ Layers::Layers(gl::Frame& frame, Ends ends, const MethodOptions& options) : fram
   frame.pixelWords(ends == Ends::Front ? "layers" : "layerRanges", 0, ends == Ends::Front ? 1 : 4);
   frame.writeTargets(0);
   frame.noDepthTest();
+  frame.beginStates();
   frame.drawPixels(resolveProgram(kFindFile, "BEGIN"));
 }
 

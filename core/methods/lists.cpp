@@ -18,7 +18,9 @@ constexpr std::uint32_t kMost = 20'000;         // LIST_MOST
 void deliverLists(gl::Frame& frame, const char* file, const gl::Defines& defines) {
   const gl::Buffer& putOff = frame.buffer("longest", 3, 4);
   putOff.clear(0);
-  frame.drawPixels(frame.pixelProgram(file, "RESOLVE", defines));
+  gl::Defines deliver = frame.wholeDefines();
+  deliver.insert(deliver.end(), defines.begin(), defines.end());
+  frame.drawPixels(frame.pixelProgram(file, "RESOLVE", deliver));
   const std::uint32_t longest = putOff.read<std::uint32_t>(1)[0];
   if (longest == 0) return;
   if (longest > kMost) failMachine("gl: more than {} fragments in a pixel are too many for linked lists", kMost);
@@ -27,7 +29,7 @@ void deliverLists(gl::Frame& frame, const char* file, const gl::Defines& defines
     merge.set("run", run);
     frame.drawPixels(merge);
   }
-  frame.drawPixels(frame.pixelProgram(file, "LONG", defines));
+  frame.drawPixels(frame.pixelProgram(file, "LONG", deliver));
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ MethodCounts drawMultiKb(gl::Frame& frame, const MethodOptions& options) {
   const gl::Program& resolve = frame.pixelProgram(file, "RESOLVE", defines);
   frame.pixelWords("peeled", 0).clear(0);
   frame.pixelWords("buckets", 1, 2 * std::size_t{k}).clear(COPEEL_KEY_NONE);
+  frame.beginStates();
   MethodCounts counts;
   const auto changes = [&] { return frame.anySamplesOf([&] { frame.drawGeometry(gather); }); };
   while (changes()) {

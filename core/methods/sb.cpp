@@ -42,7 +42,7 @@ MethodCounts drawSb(gl::Frame& frame, const MethodOptions& options) {
   const gl::Program& fill = frame.geometryProgram(file, "FILL", defines);
   fill.set("capacity", static_cast<GLuint>(capacity));
   frame.drawGeometry(fill);
-  deliverArrays(frame, file, fragments, {{"capacity", static_cast<GLuint>(capacity)}}, defines);
+  deliverArrays(frame, file, fragments, capacity, {{"capacity", static_cast<GLuint>(capacity)}}, defines);
   return {.iterations = 1, .overflow = total - capacity};
 }
 

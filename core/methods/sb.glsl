@@ -17,7 +17,10 @@ uint hashOf(uint pixel) { return pixel % uint(SB_GROUPS); }   // H(P), 2012
 
 #if defined(PASS_COUNT)
 
-void main() { atomicAdd(counts[pixelIndex()], 1u); }
+void main() {
+  fragmentPlane();   // discards what is no fragment
+  atomicAdd(counts[pixelIndex()], 1u);
+}
 
 #elif defined(PASS_PLACE)
 
@@ -41,9 +44,9 @@ void main() {
 #elif defined(PASS_FILL)
 
 void main() {
-  uint pixel = pixelIndex();
+  uint key = fragmentKey(), pixel = pixelIndex();
   uint place = groupFirst[hashOf(pixel)] + atomicAdd(places[pixel], 1u);
-  if (place < capacity) fragments[place] = uvec2(fragmentKey(), fragmentId());
+  if (place < capacity) fragments[place] = uvec2(key, fragmentId());
 }
 
 #else
@@ -54,9 +57,8 @@ void main() {
 // After FILL a pixel's place is that behind its last fragment.
 void main() {
   uint pixel = pixelIndex(), count = counts[pixel];
-  if (count == 0u) return;
-  uint first = groupFirst[hashOf(pixel)] + places[pixel] - count;
-  if (first < capacity) deliverArray(first, min(count, capacity - first));
+  uint first = count > 0u ? groupFirst[hashOf(pixel)] + places[pixel] - count : 0u;
+  deliverArray(first, min(count, capacity - min(first, capacity)));
 }
 
 #endif

@@ -22,7 +22,7 @@ MethodCounts drawSrab(gl::Frame& frame, const MethodOptions& options) {
   const gl::Buffer& missed = frame.buffer("missed", 3, 4);
   missed.clear(0);
   frame.drawGeometry(frame.geometryProgram(file, "GATHER", gatherDefines));
-  deliverArrays(frame, file, routed, {}, defines);
+  deliverArrays(frame, file, routed, options.k, {}, defines);
   return {.iterations = 1, .overflow = missed.read<std::uint32_t>(1)[0]};
 }
 

@@ -28,7 +28,6 @@ void main() {
 
 void main() {
   uint pixel = pixelIndex(), count = arrived[pixel];
-  if (count == 0u) return;
 #if defined(PASS_RESOLVE)
   if (count > uint(K)) atomicAdd(missed, count - uint(K));
 #endif
