@@ -28,20 +28,24 @@ constexpr int kLargestSide = 16384;
 
 struct CommandOptions {
   std::vector<std::string> scenes, methods, sizes;
-  std::string reportFolder, table;
+  std::string reportFolder, table, backend = "auto";
   int copies = 4, frames = 3, threads = 0;
   std::uint32_t k = 8;
   bool quiet = false, noPeer = false;
 };
 
-std::vector<std::string> chosenMethods(const CommandOptions& options) {
-  std::vector<std::string> chosen = options.methods;
-  for (const std::string& name : chosen) {
-    MethodOptions ignored;
-    if (!findMethod(parseMethod(name, ignored))) failUsage("--methods: '{}' chooses among methods, the bench wants one (see copeel methods)", name);
+void append(std::vector<MethodRun>& all, std::vector<MethodRun> some) { all.insert(all.end(), some.begin(), some.end()); }
+
+std::vector<MethodRun> chosenMethods(const CommandOptions& options) {
+  std::vector<MethodRun> chosen;
+  for (const std::string& name : options.methods) {
+    if (name == "auto" && options.backend == "cpu") failUsage("--methods auto is one of the gl back end, not of cpu");
+    append(chosen, runsOf(name == "auto" ? "gl" : options.backend, name, options.k));
   }
-  if (chosen.empty()) {
-    for (const MethodInfo& method : methods()) chosen.emplace_back(method.name);
+  if (!options.methods.empty()) return chosen;
+  for (const MethodInfo& method : methods()) {
+    if (options.backend != "auto" && options.backend != method.backend) continue;
+    if (&method == findMethod(method.name, options.backend)) append(chosen, runsOf(method.name == "auto" ? "gl" : options.backend, method.name, options.k));
   }
   return chosen;
 }
@@ -68,7 +72,6 @@ class Run {
     measure_.methods = chosenMethods(options);
     measure_.frames = options.frames;
     measure_.threads = options.threads;
-    measure_.methodOptions.k = options.k;
   }
 
   void makeFolders() const;
@@ -113,7 +116,10 @@ void Run::scenes() {
 
 MeasureOptions Run::sweepOptions() const {
   MeasureOptions sweep = measure_;
-  std::erase_if(sweep.methods, [](const std::string& name) { return std::find(kSweepMethods.begin(), kSweepMethods.end(), name) == kSweepMethods.end(); });
+  std::erase_if(sweep.methods, [](const MethodRun& run) {
+    const auto* const found = std::find(kSweepMethods.begin(), kSweepMethods.end(), run.method->name);
+    return found == kSweepMethods.end() || run.options.cull || run.options.occupancy;
+  });
   if (sweep.methods.empty()) sweep.methods = measure_.methods;
   return sweep;
 }
@@ -139,10 +145,11 @@ void Run::sweeps() {
 }
 
 void Run::culling() {
-  if (!findMethod("f2b")) return;
+  if (!findMethod("f2b", options_.backend)) return;
   progress_.phase("culling");
   MeasureOptions two = measure_;
-  two.methods = {"f2b", "f2b+cull"};
+  two.methods.clear();
+  for (const char* name : {"f2b", "f2b+cull"}) append(two.methods, runsOf("gl", name, options_.k));
   report_.culling = measureScene(threeInARow(), sizes_[0][0], sizes_[0][1], two);
 }
 
@@ -161,7 +168,7 @@ void Run::peer() {
 
 void Run::write() {
   progress_.phase("the report");
-  if (findMethod("f2b-kb-zf")) {
+  if (findMethod("f2b-kb-zf", options_.backend)) {
     try {
       report_.table = table2011(sizes_[0][0], sizes_[0][1], 1);
     } catch (const Error& error) {   // no GL: the scenes' tables say so
@@ -202,6 +209,7 @@ void addCommand(CLI::App& program) {
   for (const std::string& name : sceneNames()) names += (names.empty() ? "" : ", ") + name;
   command->add_option("--scene", options->scenes, fmt::format("{}, or a mesh file; several by commas (all of the generated ones)", names))->delimiter(',')->type_name("NAME|FILE");
   command->add_option("--methods", options->methods, "by commas (all of this build)")->delimiter(',')->type_name("NAME[+cull][+occupancy]");
+  command->add_option("--backend", options->backend, "whose methods (auto: both)")->check(CLI::IsMember({"cpu", "gl", "auto"}))->type_name("cpu|gl|auto");
   command->add_option("--sizes", options->sizes, "pixels (320,240); several for time over resolution, pictures are of the first")->type_name("W,H");
   command->add_option("--copies", options->copies, "coincident copies of the scenes that have them (4)")->check(CLI::Range(1, 1000))->type_name("N");
   command->add_option("--k", options->k, "buffer length of the methods that have one (8)")->check(CLI::Range(1, 1024))->type_name("N");

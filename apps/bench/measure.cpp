@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <chrono>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "core/image/write_image.h"
-#include "core/methods/method.h"
 
 namespace copeel::bench {
 namespace {
@@ -35,15 +36,10 @@ class Subject {
     onEdge_ = edgePixels(scene.parts, view_);
   }
 
-  void warm(Entry& entry);   // the first frame: error, counts, pictures
-  double time(const Entry& entry);
+  void warm(const MethodRun& run, Entry& entry);   // the first frame: error, counts, pictures
+  double time(const MethodRun& run);
 
  private:
-  void choose(const Entry& entry) {
-    MethodOptions options = options_.methodOptions;
-    const std::string name = parseMethod(entry.method, options);
-    renderer_.setMethod(name, options);
-  }
   void writePictures(Entry& entry, const oit::Frame& frame) const;
 
   const MeasureOptions& options_;
@@ -55,8 +51,8 @@ class Subject {
   std::vector<std::uint8_t> onEdge_;
 };
 
-void Subject::warm(Entry& entry) {
-  choose(entry);
+void Subject::warm(const MethodRun& run, Entry& entry) {
+  renderer_.setMethod(*run.method, run.options);
   renderer_.draw(view_);   // compiles shaders, grows buffers
   const oit::Frame frame = renderer_.draw(view_);
   entry.error = compare(frame, reference_, onEdge_);
@@ -68,7 +64,7 @@ void Subject::warm(Entry& entry) {
     entry.stats.fragmentsCaptured = counted.fragmentsCaptured;
     entry.stats.capturedMax = counted.capturedMax;
     entry.stats.depthComplexityMax = counted.depthComplexityMax;
-  } else {
+  } else if (run.method->keeps != Keeps::KNearest) {
     // The plain z-buffer counts nothing of itself: it keeps one fragment of each pixel.
     const bool all = entry.robust;
     entry.stats.fragments = truth_.fragments;
@@ -87,14 +83,30 @@ void Subject::writePictures(Entry& entry, const oit::Frame& frame) const {
   writePng(options_.pictureFolder + "/" + entry.errorMap, errorMap(frame, reference_, onEdge_));
 }
 
-double Subject::time(const Entry& entry) {
-  choose(entry);
+double Subject::time(const MethodRun& run) {
+  renderer_.setMethod(*run.method, run.options);
   const auto start = Clock::now();
   renderer_.draw(view_);
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
 }  // namespace
+
+std::vector<MethodRun> runsOf(std::string_view backend, std::string_view text, std::uint32_t k) {
+  std::vector<MethodRun> runs;
+  // What there is none of is refused; what one back end alone has, or takes these modifiers, runs there.
+  MethodRun run{nullptr, {.k = k}, {}};
+  const MethodInfo& first = chooseMethod(backend, text, run.options);
+  for (const MethodInfo& method : methods()) {
+    if (method.name != first.name || (backend != "auto" && backend != method.backend)) continue;
+    if (&method != &first && text != method.name) continue;
+    run.method = &method;
+    const bool isShared = findMethod(method.name, "cpu") && findMethod(method.name, "gl");
+    run.label = isShared ? fmt::format("{} ({})", text, method.backend) : text;
+    runs.push_back(run);
+  }
+  return runs;
+}
 
 std::string fileNameOf(const std::string& method) {
   std::string name = method;
@@ -107,15 +119,13 @@ std::string fileNameOf(const std::string& method) {
 std::vector<Entry> measureScene(const BenchScene& scene, int width, int height, const MeasureOptions& options) {
   Subject subject(scene, width, height, options);
   std::vector<Entry> entries;
-  for (const std::string& method : options.methods) {
-    MethodOptions ignored;
-    const MethodInfo& info = *findMethod(parseMethod(method, ignored));
+  for (const MethodRun& run : options.methods) {
     Entry entry;
-    entry.scene = scene.name, entry.method = method, entry.backend = info.backend, entry.robust = info.robust;
+    entry.scene = scene.name, entry.method = run.label, entry.backend = run.method->backend, entry.robust = run.method->robust;
     entry.width = width, entry.height = height;
     // A method that this machine cannot run (no GL, no memory) is a line of the report, not its end.
     try {
-      subject.warm(entry);
+      subject.warm(run, entry);
     } catch (const Error& error) {
       if (error.code() != ExitCode::Machine) throw;
       entry.failure = error.what();
@@ -127,7 +137,7 @@ std::vector<Entry> measureScene(const BenchScene& scene, int width, int height, 
   for (int frame = 0; frame < options.frames; ++frame) {
     for (std::size_t i = 0; i < entries.size(); ++i) {
       if (!entries[i].failure.empty() || spent[i] > kEnoughMs) continue;
-      times[i].push_back(subject.time(entries[i]));
+      times[i].push_back(subject.time(options.methods[i]));
       spent[i] += times[i].back();
     }
   }

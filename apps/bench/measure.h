@@ -12,11 +12,17 @@
 
 namespace copeel::bench {
 
+// A method as it is asked for: with its modifiers.
+struct MethodRun {
+  const MethodInfo* method;
+  MethodOptions options;
+  std::string label;                     // what it is called on the command line; with its back end where both have the name
+};
+
 struct MeasureOptions {
-  std::vector<std::string> methods;      // with modifiers
+  std::vector<MethodRun> methods;
   int frames = 3;                        // timed; fewer of methods that take seconds
   int threads = 0;
-  MethodOptions methodOptions;
   std::string pictureFolder;             // receives SCENE-METHOD.png and SCENE-METHOD-error.png; empty: none
 };
 
@@ -35,6 +41,10 @@ struct Entry {
 };
 
 std::vector<Entry> measureScene(const BenchScene& scene, int width, int height, const MeasureOptions& options);
+
+// The runs that a name on the command line means: one on each back end that has the method, of those that `backend` (cpu, gl, auto: both) admits. Buffers hold
+// K fragments. Throws Error{Usage} as chooseMethod() does.
+std::vector<MethodRun> runsOf(std::string_view backend, std::string_view text, std::uint32_t k);
 
 // "f2b+cull" as part of a file's name, too.
 std::string fileNameOf(const std::string& method);

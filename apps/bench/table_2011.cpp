@@ -31,8 +31,7 @@ constexpr Paper kPaper[] = {
 std::vector<Row2011> table2011(int width, int height, int frames) {
   MeasureOptions options;
   options.frames = frames;
-  options.methodOptions.k = 8;
-  for (const Paper& paper : kPaper) options.methods.emplace_back(paper.method);
+  for (const Paper& paper : kPaper) options.methods.push_back(runsOf("gl", paper.method, 8).front());
   std::vector<Row2011> rows(kCopies.size() * std::size(kPaper));
   for (std::size_t c = 0; c < kCopies.size(); ++c) {
     const std::vector<Entry> entries = measureScene(copies(shells(kShells, kColumns, kRows), kCopies[c], "shells"), width, height, options);

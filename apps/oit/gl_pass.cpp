@@ -1,6 +1,7 @@
 // The tables to the device, a frame of the method, and its states to pixels by the same code as the cpu's.
 #include "apps/oit/gl_pass.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "apps/oit/over_buffers.h"
@@ -29,18 +30,20 @@ PixelResult resultOf(const std::uint32_t* words, const glm::vec3& background) {
 }  // namespace
 
 struct GlPass::State {
-  State(const Scene& s, const PlaneClasses& p, const MethodOptions& o)
-      : scene(s), planes(p), options(o), renderer(s, p, o.hardwareDepth ? gl::DepthSource::Hardware : gl::DepthSource::Planes) {}
+  State(const Scene& s, const PlaneClasses& p, const std::vector<std::uint8_t>& a, const MethodOptions& o)
+      : scene(s), planes(p), opaque(a), anyOpaque(std::find(a.begin(), a.end(), 1) != a.end()), options(o), renderer(s, p, o.hardwareDepth ? gl::DepthSource::Hardware : gl::DepthSource::Planes) {}
 
   const Scene& scene;
   const PlaneClasses& planes;
+  std::vector<std::uint8_t> opaque;
+  bool anyOpaque;
   MethodOptions options;
   gl::Renderer renderer;
   OverBuffers buffers;
 };
 
-GlPass::GlPass(const Scene& scene, const PlaneClasses& planes, const MethodOptions& options)
-    : state_(std::make_unique<State>(scene, planes, options)) {}
+GlPass::GlPass(const Scene& scene, const PlaneClasses& planes, const std::vector<std::uint8_t>& opaque, const MethodOptions& options)
+    : state_(std::make_unique<State>(scene, planes, opaque, options)) {}
 
 GlPass::~GlPass() = default;
 
@@ -48,8 +51,13 @@ void GlPass::draw(const View& view, const fold::OverTables& tables, const glm::v
                   const Targets& targets, Stats& stats) {
   State& state = *state_;
   state.renderer.setView(view);
-  state.renderer.setFold(state.buffers.upload(state.scene, tables, mayEnd));
-  const gl::FrameCounts counts = state.renderer.draw(method.draw, state.options);
+  gl::FoldSource fold = state.buffers.upload(state.scene, tables, mayEnd);
+  const bool hides = mayEnd && state.anyOpaque;
+  if (hides) fold.defines.emplace_back("HIDE_BEHIND_OPAQUE", "1");
+  state.renderer.setFold(fold);
+  const gl::FrameCounts counts = state.renderer.draw(method.draw, state.options, [&](gl::Frame& frame) {
+    if (hides) frame.hideBehind(state.opaque);
+  });
   stats.passes += counts.passes;
   stats.overflow = counts.method.overflow;
   stats.methodBytes = counts.methodBytes;

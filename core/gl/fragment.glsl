@@ -14,6 +14,10 @@ layout(std430, binding = COPEEL_BUFFER_PRIMITIVES) readonly buffer Primitives { 
 layout(binding = COPEEL_TEXTURE_PLANES) uniform usamplerBuffer planes;
 layout(binding = COPEEL_TEXTURE_PRIMITIVES) uniform usamplerBuffer primitiveTexels;
 
+#ifdef HIDE_BEHIND_OPAQUE
+layout(std430, binding = COPEEL_BUFFER_OPAQUE) coherent buffer Opaque { uint opaqueKeys[]; };   // of each pixel, the nearest opaque fragment's
+#endif
+
 flat in uint firstPrimitive;
 
 uint fragmentPrimitive() { return firstPrimitive + uint(gl_PrimitiveID); }
@@ -47,9 +51,21 @@ uint fragmentPlane() {
   return planeClass;
 }
 
-// Likewise.
+// Likewise; what is behind something opaque is none either for folds that say so (Frame::hideBehind).
 uint fragmentKey() {
   uint planeClass = fragmentPlane();
-  if (depthHardware != 0) return clamp(floatBitsToUint(gl_FragCoord.z), COPEEL_KEY_LEAST, COPEEL_KEY_NONE - 1u);
-  return keyOfPlane(planeClass);
+  uint key = depthHardware != 0 ? clamp(floatBitsToUint(gl_FragCoord.z), COPEEL_KEY_LEAST, COPEEL_KEY_NONE - 1u) : keyOfPlane(planeClass);
+#ifdef HIDE_BEHIND_OPAQUE
+  if (key > opaqueKeys[pixelIndex()]) discard;
+#endif
+  return key;
+}
+
+// Discards what is no fragment, for passes that count.
+void onlyFragments() {
+#ifdef HIDE_BEHIND_OPAQUE
+  fragmentKey();
+#else
+  fragmentPlane();
+#endif
 }
