@@ -12,6 +12,7 @@
 
 #include "apps/command/outputs.h"
 #include "apps/command/parse_values.h"
+#include "apps/command/repeatable_option.h"
 #include "core/error.h"
 #include "core/methods/method.h"
 
@@ -107,6 +108,8 @@ void addCommonOptions(CLI::App& command, CommonOptions& options) {
     if (text != "lit" && text != "none") failUsage("--shading takes one of lit|none, not '{}'", text);
     options.lit = text == "lit";
   });
+  addRepeatable(command, "--light", "X,Y,Z[,STRENGTH]", "a light there as the eye sees it: x to the right, y up, z to the viewer (openscad's, -1,1,1,1)",
+                [&options](const std::string& text) { options.lights.push_back(parseLight(text)); });
   addWhole(command, "--frames", options.frames, 1, kMaxFrames, "draw so many times, for timing (1)");
   command.add_flag("-q,--quiet", options.quiet, "no warnings and no progress");
 }

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "core/fold/light.h"
 #include "core/methods/draw.h"
 #include "core/scene/camera.h"
 
@@ -27,6 +29,7 @@ struct CommonOptions {
   double coplanarTolerance = 0;                       // model units; 0: from the scene
   std::optional<std::array<double, 3>> background;    // 0 … 255
   bool lit = true;
+  std::vector<Light> lights;                          // --light; none: openscad's
   std::string depthFile, idsFile, statsFile;
   int frames = 1;
   bool quiet = false;

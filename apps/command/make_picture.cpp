@@ -49,6 +49,7 @@ std::string asPath(const std::string& name) { return name.starts_with('-') ? "./
 void makePicture(const CommonOptions& options, const PictureSteps& steps, Outputs outputs, const Image<Rgb8>& color) {
   const auto start = Clock::now();
   const std::string& first = steps.inputs.front();
+  if (!options.lit && !options.lights.empty()) failUsage("--light lights what --shading none leaves plain");
   // A view that cannot be is refused before anything is read.
   viewOf(options.camera, Box{{0, 0, 0}, {1, 1, 1}});
 

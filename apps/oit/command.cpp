@@ -45,6 +45,7 @@ RenderOptions renderOptions(const CommandOptions& options) {
   RenderOptions render;
   if (common.background) render.background = *common.background;
   render.lit = common.lit;
+  if (!common.lights.empty()) render.lights = common.lights;
   render.coplanarTolerance = common.coplanarTolerance;
   render.threads = common.threads;
   render.samples = common.samples;

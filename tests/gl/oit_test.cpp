@@ -20,6 +20,7 @@ std::vector<oit::Part> bodies() {
 oit::Frame drawnWith(std::string_view method, double offset = 0) {
   oit::RenderOptions options;
   options.method = method;
+  options.lights = {{{1, 2, 3}, 0.7}, {{-2, 1, 0.5}, 0.4}};
   options.wantDepth = options.wantIds = options.wantLayers = options.wantCoplanar = true;
   View view = lookAt({3, 2, 4}, {0, 0, 0}, 64, 48, 0.02);
   view.offset = {offset, offset};
