@@ -39,11 +39,17 @@ uint keyOfPlane(uint planeClass) {
   return COPEEL_KEY_LEAST + (depthSign > 0 ? shiftedDifference(bits, depthNearest) : shiftedDifference(depthNearest, bits));
 }
 
-// To be asked before anything is written: a plane that holds the eye is seen as a line, and what clipping leaves of its triangles is no fragment.
-uint fragmentKey() {
+// A plane that holds the eye is seen as a line, and what clipping leaves of its triangles is no fragment. Returns the plane class.
+uint discardNoFragment() {
   uint planeClass = texelFetch(primitiveTexels, int(fragmentPrimitive())).r;
   uvec2 range = texelFetch(planes, int(planeClass) * 2 + 1).zw;
   if (uintBitsToFloat(range.x) > uintBitsToFloat(range.y)) discard;
+  return planeClass;
+}
+
+// This, or discardNoFragment(), comes before anything is written.
+uint fragmentKey() {
+  uint planeClass = discardNoFragment();
   if (depthHardware != 0) return clamp(floatBitsToUint(gl_FragCoord.z), COPEEL_KEY_LEAST, COPEEL_KEY_NONE - 1u);
   return keyOfPlane(planeClass);
 }
