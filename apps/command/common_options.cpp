@@ -14,6 +14,9 @@
 #include "apps/command/parse_values.h"
 #include "apps/command/repeatable_option.h"
 #include "core/error.h"
+#if COPEEL_GL
+#include "core/gl/device_memory.h"
+#endif
 #include "core/methods/method.h"
 
 namespace copeel {
@@ -114,6 +117,14 @@ void addCommonOptions(CLI::App& command, CommonOptions& options) {
   command.add_flag("-q,--quiet", options.quiet, "no warnings and no progress");
 }
 
+const MethodInfo& methodOf(const CommonOptions& options) {
+  const MethodInfo& method = chooseMethod(options.backend, options.method);
+  if (options.methodOptions.hardwareDepth && method.backend != "gl") {
+    failUsage("--depth-source hardware is of the gl back end; --method {} is one of the {} back end", method.name, method.backend);
+  }
+  return method;
+}
+
 std::string pictureFile(const CommonOptions& options, const std::string& input) {
   namespace fs = std::filesystem;
   if (options.output.empty()) return fs::path(input).filename().replace_extension(".png").string();
@@ -134,6 +145,9 @@ void limitMemory(std::uint64_t bytes) {
   const bool known = getrlimit(RLIMIT_DATA, &limit) == 0;
   limit.rlim_cur = std::min<rlim_t>(bytes, limit.rlim_max);
   if (!known || setrlimit(RLIMIT_DATA, &limit) != 0) failMachine("cannot limit the memory to {} bytes", bytes);
+#if COPEEL_GL
+  gl::DeviceMemory::limit(bytes);
+#endif
 }
 
 }  // namespace copeel

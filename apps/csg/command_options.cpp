@@ -86,7 +86,7 @@ RenderOptions renderOptions(const CommandOptions& options) {
   render.coplanarTolerance = common.coplanarTolerance;
   render.threads = common.threads;
   render.samples = common.samples;
-  const MethodInfo& method = chooseMethod(common.backend, common.method);
+  const MethodInfo& method = methodOf(common);
   render.method = method.name;
   render.methodOptions = common.methodOptions;
   render.wantDepth = !common.depthFile.empty();

@@ -9,7 +9,6 @@
 #include "apps/command/make_picture.h"
 #include "apps/oit/read_parts.h"
 #include "core/image/write_image.h"
-#include "core/methods/method.h"
 
 namespace copeel::oit {
 namespace {
@@ -49,7 +48,7 @@ RenderOptions renderOptions(const CommandOptions& options) {
   render.coplanarTolerance = common.coplanarTolerance;
   render.threads = common.threads;
   render.samples = common.samples;
-  render.method = chooseMethod(common.backend, common.method).name;
+  render.method = methodOf(common).name;
   render.methodOptions = common.methodOptions;
   render.wantDepth = !common.depthFile.empty();
   render.wantIds = !common.idsFile.empty();
@@ -60,7 +59,7 @@ RenderOptions renderOptions(const CommandOptions& options) {
 
 void run(const CommandOptions& options) {
   const CommonOptions& common = options.common;
-  chooseMethod(common.backend, common.method);   // refused before anything is read
+  methodOf(common);   // refused before anything is read
   std::vector<MeshArgument> files;
   PictureSteps steps;
   for (const std::string& input : options.inputs) {

@@ -70,6 +70,8 @@ TEST_F(Usage, RefusedWithOneLine) {
       {"csg", "part.csg", "--light", "left"},
       {"csg", "part.csg", "--light", "1,inf,1"},
       {"csg", "part.csg", "--light", "0,0,1", "--shading", "none"},
+      {"csg", "part.csg", "--depth-source", "hardware"},
+      {"csg", "part.csg", "--depth-source", "hardware", "--method", "zbuffer"},
       {"csg", "part.csg", "-D", "x=1"},
       {"csg", "part.scad", "-D", "x="},
       {"csg", "part.scad", "-D", "x= ;"},
@@ -119,6 +121,12 @@ TEST_F(Usage, MethodsAsTableAndJson) {
   for (const auto& method : list) {
     for (const char* key : {"name", "backend", "robust", "rh", "passes", "memory", "title", "source"}) EXPECT_TRUE(method.contains(key)) << key;
   }
+}
+
+TEST_F(Usage, MoreThreadsThanCoresAreNothingToWarnOf) {
+  const Outcome outcome = run({"csg", "part.csg", "--imgsize", "64,48", "--threads", "67", "-o", "a.png"});
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_TRUE(outcome.standardError.empty()) << outcome.standardError;
 }
 
 TEST_F(Usage, EveryOptionTogether) {

@@ -54,5 +54,45 @@ TEST(GlOit, equalsTheTileMethodOffEdges) {
   EXPECT_GT(compared, 300);
 }
 
+// More vertices than one dispatch of groups projects, all but the last of which no triangle uses; and objects without any.
+TEST(GlOit, aMeshOfFourMillionVertices) {
+  const View view = lookAt({0.521, 0.532, 20}, {0.521, 0.532, 0}, 21, 21, 0.001);
+  const auto drawn = [&](std::size_t unused) {
+    const Mesh square = quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+    Mesh large;
+    large.vertices.assign(unused, glm::dvec3(0.5, 0.5, 0));
+    large.vertices.insert(large.vertices.end(), square.vertices.begin(), square.vertices.end());
+    for (const glm::uvec3& t : square.triangles) large.triangles.push_back(t + static_cast<std::uint32_t>(unused));
+    oit::RenderOptions options;
+    options.method = "ll";
+    options.wantLayers = true;
+    const MeshPointer none = share(Mesh{});
+    return oit::Renderer({{none}, {none}, {share(large), {200, 30, 30, 0.5}, {}, glm::dmat4(1.0)}, {none}}, options).draw(view);
+  };
+  const oit::Frame small = drawn(0), large = drawn(4'200'000);
+  EXPECT_EQ(large.layers.at(10, 10), 1);
+  EXPECT_EQ(large.layers.pixels, small.layers.pixels);
+  EXPECT_EQ(large.color.pixels, small.color.pixels);
+}
+
+// What a method delivers is counted beside it by one that takes any number of fragments.
+TEST(GlOit, twentyOneThousandFragmentsInAPixelAreMeasured) {
+  constexpr std::uint32_t kCount = 21'000;
+  Mesh stack = quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+  stack.triangles.assign(kCount, {0, 1, 2});
+  stack.facets.clear();
+  oit::RenderOptions options;
+  options.method = "sb";
+  options.wantLayers = options.wantCoplanar = true;
+  oit::Renderer renderer({{share(stack), {200, 30, 30, 1e-4f}, {}, glm::dmat4(1.0)}}, options);
+  const oit::Frame frame = renderer.draw(lookAt({0.71, 0.32, 20}, {0.71, 0.32, 0}, 1, 1, 0.001));
+  renderer.measure();
+  EXPECT_EQ(frame.layers.at(0, 0), kCount);
+  EXPECT_EQ(frame.coplanar.at(0, 0), kCount);
+  EXPECT_EQ(renderer.stats().fragments, kCount);
+  EXPECT_EQ(renderer.stats().fragmentsCaptured, kCount);
+  EXPECT_EQ(renderer.stats().depthComplexityMax, kCount);
+}
+
 }  // namespace
 }  // namespace copeel::test
