@@ -19,11 +19,13 @@ OracleMesh placed(const oit::Part& part) {
   return leafMesh(model, 0);
 }
 
-// openscad's light in eye space, both sides of a face alike.
-double shadeOf(const OracleMesh& mesh, const glm::uvec3& t, const View& view) {
+// 0.2 and what each light adds, both sides of a face alike.
+double shadeOf(const OracleMesh& mesh, const glm::uvec3& t, const View& view, const std::vector<Light>& lights) {
   const glm::dvec3 a = mesh.vertices[t.x], normal = glm::cross(mesh.vertices[t.y] - a, mesh.vertices[t.z] - a);
   const double x = glm::dot(normal, glm::normalize(view.right)), y = -glm::dot(normal, glm::normalize(view.down)), z = -glm::dot(normal, view.forward);
-  return 0.2 + std::abs(-x + y + z) / (std::sqrt(3.0) * glm::length(normal));
+  double shade = 0.2;
+  for (const auto& [l, strength] : lights) shade += strength * std::abs(l.x * x + l.y * y + l.z * z) / (std::hypot(l.x, l.y, l.z) * glm::length(normal));
+  return shade;
 }
 
 bool sameByte(std::uint8_t byte, double exact) {
@@ -46,7 +48,7 @@ BlendOracle::BlendOracle(const std::vector<oit::Part>& parts, const View& view, 
     colors_.emplace_back();
     for (std::size_t t = 0; t < meshes.back().triangles.size(); ++t) {
       const glm::dvec4 base(part.faceColors.empty() ? part.color : part.faceColors[t]);
-      const double shade = options.lit ? shadeOf(meshes.back(), meshes.back().triangles[t], view) : 1;
+      const double shade = options.lit ? shadeOf(meshes.back(), meshes.back().triangles[t], view, options.lights) : 1;
       colors_.back().emplace_back(glm::min(glm::dvec3(base) * shade, 255.0), base.a);
     }
   }

@@ -12,7 +12,11 @@
 
 #include "apps/command/outputs.h"
 #include "apps/command/parse_values.h"
+#include "apps/command/repeatable_option.h"
 #include "core/error.h"
+#if COPEEL_GL
+#include "core/gl/device_memory.h"
+#endif
 
 namespace copeel {
 namespace {
@@ -104,8 +108,19 @@ void addCommonOptions(CLI::App& command, CommonOptions& options) {
     if (text != "lit" && text != "none") failUsage("--shading takes one of lit|none, not '{}'", text);
     options.lit = text == "lit";
   });
+  addRepeatable(command, "--light", "X,Y,Z[,STRENGTH]", "a light there as the eye sees it: x to the right, y up, z to the viewer (openscad's, -1,1,1,1)",
+                [&options](const std::string& text) { options.lights.push_back(parseLight(text)); });
   addWhole(command, "--frames", options.frames, 1, kMaxFrames, "draw so many times, for timing (1)");
   command.add_flag("-q,--quiet", options.quiet, "no warnings and no progress");
+}
+
+const MethodInfo& methodOf(const CommonOptions& options, MethodOptions& methodOptions) {
+  methodOptions = options.methodOptions;
+  const MethodInfo& method = chooseMethod(options.backend, options.method, methodOptions);
+  if (methodOptions.hardwareDepth && method.backend != "gl") {
+    failUsage("--depth-source hardware is of the gl back end; --method {} is one of the {} back end", method.name, method.backend);
+  }
+  return method;
 }
 
 std::string pictureFile(const CommonOptions& options, const std::string& input) {
@@ -128,6 +143,9 @@ void limitMemory(std::uint64_t bytes) {
   const bool known = getrlimit(RLIMIT_DATA, &limit) == 0;
   limit.rlim_cur = std::min<rlim_t>(bytes, limit.rlim_max);
   if (!known || setrlimit(RLIMIT_DATA, &limit) != 0) failMachine("cannot limit the memory to {} bytes", bytes);
+#if COPEEL_GL
+  gl::DeviceMemory::limit(bytes);
+#endif
 }
 
 }  // namespace copeel

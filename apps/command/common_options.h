@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "core/methods/draw.h"
+#include "core/fold/light.h"
+#include "core/methods/method.h"
 #include "core/scene/camera.h"
 
 namespace CLI {
@@ -27,6 +29,7 @@ struct CommonOptions {
   double coplanarTolerance = 0;                       // model units; 0: from the scene
   std::optional<std::array<double, 3>> background;    // 0 … 255
   bool lit = true;
+  std::vector<Light> lights;                          // --light; none: openscad's
   std::string depthFile, idsFile, statsFile;
   int frames = 1;
   bool quiet = false;
@@ -35,11 +38,14 @@ struct CommonOptions {
 // Declares the options; `options` must live as long as the command does, and is filled while the command line is read. Values that make no sense throw Error{Usage}.
 void addCommonOptions(CLI::App& command, CommonOptions& options);
 
+// The method by --backend and --method (core/methods/method.h), and the options it runs with; throws Error{Usage} too when an option is not of its back end.
+const MethodInfo& methodOf(const CommonOptions& options, MethodOptions& methodOptions);
+
 // Where the picture goes: -o, or the first input's name in the current folder with .png. Throws Error{Usage} on another ending.
 std::string pictureFile(const CommonOptions& options, const std::string& input);
 
 // Holds the data memory of the process, and that of each program it runs, to the limit from now on: past it, allocations fail and the
-// program ends with exit code 3. Called before anything is read.
+// program ends with exit code 3. Where the gl back end draws, what is asked of the driver is held to it instead. Called before anything is read.
 void limitMemory(std::uint64_t bytes);
 
 }  // namespace copeel

@@ -9,6 +9,7 @@
 #include "apps/command/progress.h"
 #include "core/error.h"
 #include "core/image/write_image.h"
+#include "core/methods/method.h"
 #include "core/output_file.h"
 #include "core/parallel.h"
 
@@ -49,6 +50,7 @@ std::string asPath(const std::string& name) { return name.starts_with('-') ? "./
 void makePicture(const CommonOptions& options, const PictureSteps& steps, Outputs outputs, const Image<Rgb8>& color) {
   const auto start = Clock::now();
   const std::string& first = steps.inputs.front();
+  if (!options.lit && !options.lights.empty()) failUsage("--light lights what --shading none leaves plain");
   // A view that cannot be is refused before anything is read.
   viewOf(options.camera, Box{{0, 0, 0}, {1, 1, 1}});
 
@@ -72,6 +74,9 @@ void makePicture(const CommonOptions& options, const PictureSteps& steps, Output
   progress.reset();
   if (!options.quiet) {
     for (const std::string& warning : warnings) fmt::print(stderr, "copeel: warning: {}\n", warning);
+    if (const MethodInfo* method = findMethod(stats.method); method && method->robust && stats.overflow > 0) {
+      fmt::print(stderr, "copeel: warning: --method {}: {} fragments found no room and are missing\n", stats.method, stats.overflow);
+    }
     if (stats.triangles == 0) fmt::print(stderr, "copeel: warning: {}: there is nothing to draw\n", first);
   }
   stats.loadMs = loadMs;

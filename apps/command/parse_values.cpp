@@ -120,6 +120,16 @@ std::uint64_t parseBytes(std::string_view text, std::string_view option) {
   return static_cast<std::uint64_t>(bytes);
 }
 
+Light parseLight(std::string_view text) {
+  constexpr double kMostStrength = 1e6;   // far beyond white, and far from where a float ends
+  const std::vector<double> numbers = parseNumbers(text, "--light");
+  if (numbers.size() != 3 && numbers.size() != 4) failUsage("--light takes X,Y,Z or X,Y,Z,STRENGTH, not '{}'", text);
+  const Light light{{numbers[0], numbers[1], numbers[2]}, numbers.size() == 4 ? numbers[3] : 1.0};
+  if (light.toward == glm::dvec3(0)) failUsage("--light 0,0,0 is no direction");
+  if (!(light.strength >= 0 && light.strength <= kMostStrength)) failUsage("--light takes a strength from 0 to {}, not {}", kMostStrength, light.strength);
+  return light;
+}
+
 bool parseProjection(std::string_view text) {
   if (text == "p" || text == "persp" || text == "perspective") return true;
   if (text == "o" || text == "ortho" || text == "orthogonal" || text == "orthographic") return false;

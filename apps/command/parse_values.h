@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/fold/light.h"
+
 namespace copeel {
 
 double parseNumber(std::string_view text, std::string_view option);
@@ -27,6 +29,9 @@ double parseAlpha(std::string_view text, std::string_view option);
 
 // "1500000", "64K", "2.5G": powers of 1024.
 std::uint64_t parseBytes(std::string_view text, std::string_view option);
+
+// "X,Y,Z" or "X,Y,Z,STRENGTH": the direction towards a light in eye space.
+Light parseLight(std::string_view text);
 
 // Whether the picture is perspective: openscad's words.
 bool parseProjection(std::string_view text);

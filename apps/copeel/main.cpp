@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <new>
 #include <stdexcept>
@@ -79,6 +80,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   copeel::keepHeap();
   copeel::cleanUpOnSignal();
+  setenv("EGL_LOG_LEVEL", "fatal", 0);   // what Mesa has to say there comes as our one line
   std::signal(SIGPIPE, SIG_IGN);   // a closed pipe is an error of the write, and reported as one
   try {
     return run(argc, argv);

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/command/parse_values.h"
+#include "apps/command/repeatable_option.h"
 #include "apps/csg/color_schemes.h"
 #include "core/error.h"
 #include "core/methods/method.h"
@@ -27,16 +28,6 @@ InsideRule parseInside(const std::string& text) {
   if (text == "positive") return InsideRule::Positive;
   if (text == "odd") return InsideRule::Odd;
   failUsage("--inside takes one of nonzero|positive|odd, not '{}'", text);
-}
-
-// A repeatable option that takes one value each time and leaves the file after it alone.
-template <class Take>
-void addRepeatable(CLI::App& command, const std::string& name, const std::string& valueName, const std::string& help, Take take) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          name, [take](const std::vector<std::string>& values) { for (const std::string& value : values) take(value); }, help)
-      ->type_name(valueName)
-      ->allow_extra_args(false);
 }
 
 }  // namespace
@@ -90,13 +81,13 @@ RenderOptions renderOptions(const CommandOptions& options) {
   render.scheme = options.scheme;
   if (common.background) render.scheme.background = *common.background;
   render.lit = common.lit;
+  if (!common.lights.empty()) render.lights = common.lights;
   render.edges = options.edges;
   render.sections = options.sections;
   render.coplanarTolerance = common.coplanarTolerance;
   render.threads = common.threads;
   render.samples = common.samples;
-  render.methodOptions = common.methodOptions;
-  render.method = &chooseMethod(common.backend, common.method, render.methodOptions);
+  render.method = &methodOf(common, render.methodOptions);
   render.wantDepth = !common.depthFile.empty();
   render.wantIds = !common.idsFile.empty();
   return render;

@@ -12,7 +12,7 @@ layout(std430, binding = COPEEL_BUFFER_FOLD_TABLE + 1) readonly buffer FromStack
 void main() {
   foldLoad(COPEEL_FRONT);
 #if defined(PASS_SUM)
-  fragmentKey();   // discards what is no fragment
+  discardNoFragment();
   // The open group's change is free for this: nothing was delivered yet.
   uint leaf = primitives[fragmentPrimitive()].object;
   if (fromStack[leaf] != 0u) atomicAdd(foldStates[csgLeafAt(leaf) + 1u], uint(gl_FrontFacing ? -1 : 1));

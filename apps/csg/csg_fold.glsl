@@ -15,6 +15,8 @@ struct CsgPrimitive {
 };
 layout(std430, binding = COPEEL_BUFFER_PRIMITIVES) readonly buffer CsgPrimitives { CsgPrimitive csgPrimitives[]; };
 
+layout(std430, binding = COPEEL_BUFFER_FOLD_TABLE + 2) buffer CsgCut { uint csgCut; };
+
 #define CSG_NONE 0xFFFFFFFFu
 
 // Opacity of a leaf, two bits each: as part of the solid, of what % marks, of what # marks. An output's third word says which, and in its
@@ -39,12 +41,20 @@ bool csgInside(int winding) {
   return csg.insideRule == 0u ? winding != 0 : csg.insideRule == 1u ? winding > 0 : (winding & 1) != 0;
 }
 
+// A driver may end shaders that loop for too long (llvmpipe silently, after 65,536 turns of all loops together), and a large model asks for many turns.
+// Every further loop then ends after its first turn, as this one shows.
+void csgNoteCut() {
+  uint turns = 0u;
+  while (turns < min(csg.surfaceLimit, 2u)) ++turns;
+  if (turns < 2u) csgCut = 1u;
+}
+
 // The state lives in memory; loading finds its place.
 void foldLoad(uint side) {
   csgSide = side;
   csgBase = foldStateAt(side, csgStateWords());
 }
-void foldStore(uint side) {}
+void foldStore(uint side) { csgNoteCut(); }
 
 bool csgWasTrue(uint gate) {
   uint at = csgGateAt(gate);
@@ -94,6 +104,7 @@ void foldInitial(uint side) {
     if (csg.words[3u * leaf] != 0u) csgWind(leaf, int(csg.words[3u * leaf]));
   }
   ++foldStates[csgBase + 3u];
+  csgNoteCut();
 }
 
 // Within a group order does not matter: the latest face of each leaf is kept.
@@ -232,4 +243,5 @@ void foldFinish() {
   uint behind = ended ? 0u : foldStates[csgBase];
   for (uint i = 0u; i < behind && count + i < csg.surfaceLimit && behind <= csg.surfaceLimit; ++i) csgResult(at, count + i, behind - 1u - i);
   foldResults[at] = count + behind;
+  csgNoteCut();
 }

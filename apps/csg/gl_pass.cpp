@@ -41,7 +41,7 @@ struct GlPass::State {
   MethodOptions options;
   gl::Renderer renderer;
   PrunedForest gates;                       // all leaves live
-  gl::Buffer model, fromStack;
+  gl::Buffer model, fromStack, cut;         // cut: whether the driver ended a shader too early
   std::uint32_t surfaceLimit = kFirstSurfaceLimit;
 };
 
@@ -89,7 +89,8 @@ void GlPass::State::setFold(const std::vector<std::uint32_t>& words, const EyeWi
   fold.defines = {{"FOLD", "apps/csg/csg_fold.glsl"}};
   fold.stateWords = static_cast<std::uint32_t>(stateWords(scene.objects().size(), gates.nodes().size(), surfaceLimit));
   fold.resultWords = static_cast<std::uint32_t>(1 + kSurfaceWords * surfaceLimit);
-  fold.tables = {{&model}, {&fromStack}};
+  cut = gl::Buffer(std::vector<std::uint32_t>{0});
+  fold.tables = {{&model}, {&fromStack}, {&cut}};
   fold.inMemory = true;
   renderer.setFold(fold);
 }
@@ -132,9 +133,13 @@ void GlPass::draw(const View& view, const EyeWinding& eye, CsgFold::Alpha alpha,
   for (;; state.surfaceLimit *= 2) {
     state.setFold(state.modelWords(eye, alpha, context), eye);
     const gl::FrameCounts counts = state.drawFrame(eye, method);
+    if (state.cut.read<std::uint32_t>(1)[0] != 0) failMachine("gl: the driver ends shaders before a model of so many leaves is done; use --backend cpu");
     if (!state.deliver(view, sink)) continue;
     stats.passes += counts.passes;
     stats.overflow = counts.method.overflow;
+    stats.methodBytes = counts.methodBytes;
+    stats.objectsDrawn = counts.objectsDrawn;
+    stats.passMs = counts.passMs;
     if (!counts.method.chosen.empty()) {
       stats.method = "auto: " + counts.method.chosen;
       stats.methodReason = counts.method.reason;

@@ -1,5 +1,5 @@
 // How surfaces look: openscad's preview. A leaf's own colour goes before the scheme's, and before the grey of %, but not before that of #.
-// Colour = base · min(1, 0.2 + |n·l|), l = (-1, 1, 1)/√3 in eye space, blended in float.
+// The light is that of shadesOf (core/fold/over.h), blended in float.
 #pragma once
 
 #include <span>
@@ -16,7 +16,7 @@ class Look {
  public:
   Look(const Model& model, const GateForest& forest, const RenderOptions& options);
 
-  void setView(const PlaneClasses& planes, const View& view) { shade_ = fold::shadesOf(planes, view, options_.lit); }
+  void setView(const PlaneClasses& planes, const View& view) { shade_ = fold::shadesOf(planes, view, options_.lit, options_.lights); }
   double alpha(std::uint32_t leaf, std::uint32_t part) const { return colorOf(leaf, part).a; }
   glm::dvec3 blend(std::span<const Surface> frontToBack) const;   // 0 … 255, over the background
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/csg/csg_model.h"
+#include "core/fold/light.h"
 #include "core/image/image.h"
 #include "core/methods/method.h"
 #include "core/metrics/stats.h"
@@ -38,6 +39,7 @@ struct RenderOptions {
   InsideRule inside = InsideRule::NonZero;
   ColorScheme scheme;
   bool lit = true;
+  std::vector<Light> lights = openscadLights();
   bool edges = false;              // a black line of one pixel where one visible face ends and another begins
   std::vector<Section> sections;
   double coplanarTolerance = 0;    // model units; 0: from the scene (see core/coplanarity/plane_classes.h)

@@ -44,11 +44,11 @@ RenderOptions renderOptions(const CommandOptions& options) {
   RenderOptions render;
   if (common.background) render.background = *common.background;
   render.lit = common.lit;
+  if (!common.lights.empty()) render.lights = common.lights;
   render.coplanarTolerance = common.coplanarTolerance;
   render.threads = common.threads;
   render.samples = common.samples;
-  render.methodOptions = common.methodOptions;
-  render.method = &chooseMethod(common.backend, common.method, render.methodOptions);
+  render.method = &methodOf(common, render.methodOptions);
   render.wantDepth = !common.depthFile.empty();
   render.wantIds = !common.idsFile.empty();
   render.wantLayers = !options.layersFile.empty();

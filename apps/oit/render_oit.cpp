@@ -74,7 +74,7 @@ void Renderer::State::prepare(const std::vector<Part>& parts) {
 }
 
 void Renderer::State::drawPass(const View& view, const Targets& targets) {
-  tables.shades = fold::shadesOf(planes, view, options.lit);
+  tables.shades = fold::shadesOf(planes, view, options.lit, options.lights);
 #if COPEEL_GL
   if (options.method->draw) {
     if (!glPass) glPass = std::make_unique<GlPass>(scene, planes, allOpaque, options.methodOptions);

@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "core/fold/light.h"
 #include "core/image/image.h"
 #include "core/methods/method.h"
 #include "core/metrics/stats.h"
@@ -31,6 +32,7 @@ struct Part {
 struct RenderOptions {
   std::array<double, 3> background{255, 255, 229};
   bool lit = true;
+  std::vector<Light> lights = openscadLights();
   double coplanarTolerance = 0;    // model units; 0: from the scene (see core/coplanarity/plane_classes.h)
   int threads = 0;                 // 0: all cores
   int samples = 1;                 // anti-aliasing samples per pixel

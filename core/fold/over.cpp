@@ -1,5 +1,6 @@
 #include "core/fold/over.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -18,15 +19,29 @@ void OverTables::addObject(std::span<const vec4> colorOfTriangle) {
   bases.insert(bases.end(), colorOfTriangle.begin(), colorOfTriangle.end());
 }
 
-std::vector<float> shadesOf(const PlaneClasses& planes, const View& view, bool lit) {
-  constexpr double kAmbient = 0.2;
+namespace {
+
+// A light's direction in world space, as long as the light is strong. Only the ratio of its numbers counts, which may themselves be too large to square.
+glm::dvec3 weighted(const Light& light, const View& view) {
+  const double greatest = std::max({std::abs(light.toward.x), std::abs(light.toward.y), std::abs(light.toward.z)});
+  const glm::dvec3 toward = light.toward / greatest;
   const glm::dvec3 right = glm::normalize(view.right), up = -glm::normalize(view.down);
-  const glm::dvec3 light = (-right + up - view.forward) / std::sqrt(3.0);
+  return (toward.x * right + toward.y * up - toward.z * view.forward) / glm::length(toward) * light.strength;
+}
+
+}  // namespace
+
+std::vector<float> shadesOf(const PlaneClasses& planes, const View& view, bool lit, const std::vector<Light>& lights) {
+  constexpr double kAmbient = 0.2;
   std::vector<float> shades(planes.classes().size(), 1.0f);
   if (!lit) return shades;
+  std::vector<glm::dvec3> directions;
+  for (const Light& light : lights) directions.push_back(weighted(light, view));
   parallelFor(shades.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i) {
-      shades[i] = static_cast<float>(kAmbient + std::abs(glm::dot(planes.classes()[i].normal, light)));
+      double shade = kAmbient;
+      for (const glm::dvec3& light : directions) shade += std::abs(glm::dot(planes.classes()[i].normal, light));
+      shades[i] = static_cast<float>(shade);
     }
   });
   return shades;

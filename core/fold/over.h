@@ -7,6 +7,7 @@
 
 #include "core/coplanarity/plane_classes.h"
 #include "core/fold/common_glsl.h"
+#include "core/fold/light.h"
 #include "core/scene/view.h"
 
 namespace copeel::fold {
@@ -33,7 +34,7 @@ struct OverTables {
 };
 static_assert(sizeof(vec4) == 16 && sizeof(BaseRange) == 8);
 
-// openscad's light: 0.2 + |n·l| with l = (-1, 1, 1)/√3 in eye space, the same from both sides of a face; 1 where nothing is lit.
-std::vector<float> shadesOf(const PlaneClasses& planes, const View& view, bool lit);
+// 0.2 + Σ strength · |n·l| over the lights, l of length 1, the same from both sides of a face; 1 where nothing is lit. openscad's light gives openscad's shades.
+std::vector<float> shadesOf(const PlaneClasses& planes, const View& view, bool lit, const std::vector<Light>& lights = openscadLights());
 
 }  // namespace copeel::fold

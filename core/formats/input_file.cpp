@@ -37,6 +37,11 @@ Source::Source(std::span<const char> bytes, std::string name) : bytes_(bytes), n
   }
 }
 
+Source Source::withoutByteOrderMark() const {
+  const bool marked = std::string_view(data(), size()).starts_with("\xef\xbb\xbf");
+  return marked ? Source(bytes_.subspan(3), name_) : *this;
+}
+
 std::size_t Source::lineOf(std::size_t place) const {
   std::size_t line = 1;
   for (std::size_t i = 0; i < std::min(place, bytes_.size()); ++i) {

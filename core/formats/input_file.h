@@ -19,6 +19,7 @@ class Source {
   const char* data() const { return bytes_.data(); }
   std::size_t size() const { return bytes_.size(); }
   const std::string& name() const { return name_; }
+  Source withoutByteOrderMark() const;          // text in UTF-8 may begin with one
   std::size_t lineOf(std::size_t place) const;  // from 1; \n, \r\n and a lone \r end a line
 
   // Error{Input}: "name:line: cause", "name: byte N: cause", "name: cause".

@@ -15,9 +15,6 @@ namespace {
 
 Mesh readAny(const Source& source, const ReadMeshOptions& options) {
   if (source.size() == 0) source.fail("the file is empty");
-  // Text in UTF-8 may begin with a byte order mark.
-  const std::string_view bytes(source.data(), source.size());
-  if (bytes.starts_with("\xef\xbb\xbf")) return readAny(Source(std::span(bytes).subspan(3), source.name()), options);
   if (looksLikePly(source)) return readPly(source, options);
   if (looksLikeStl(source)) return readStl(source, options);
   if (looksLikeOff(source)) return readOff(source, options);
@@ -31,14 +28,14 @@ Mesh readMesh(const std::string& path, const ReadMeshOptions& options) {
   // A file that does not fit is the machine's limit, not a fault of the file.
   try {
     const InputFile file(path);
-    return readAny(file.source(), options);
+    return readAny(file.source().withoutByteOrderMark(), options);
   } catch (const std::bad_alloc&) {
     failMachine("{}: not enough memory", path);
   }
 }
 
 Mesh readMeshFromMemory(std::span<const char> bytes, const std::string& name, const ReadMeshOptions& options) {
-  return readAny(Source(bytes, name), options);
+  return readAny(Source(bytes, name).withoutByteOrderMark(), options);
 }
 
 }  // namespace copeel

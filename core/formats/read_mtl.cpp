@@ -76,7 +76,7 @@ bool addMaterials(const std::string& objPath, const std::string& library, Materi
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;
   const InputFile file(path.string());
-  readMtl(file.source(), materials);
+  readMtl(file.source().withoutByteOrderMark(), materials);
   return true;
 }
 

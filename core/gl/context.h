@@ -21,6 +21,9 @@ class Context {
   bool software_ = false;
 };
 
+// By the driver's name of itself.
+bool isSoftwareRenderer(const std::string& name);
+
 // Throws Error{Machine} if the driver has found fault with anything since the last call; `doing` says in what.
 void checkErrors(const char* doing);
 

@@ -43,17 +43,17 @@ uint keyOfPlane(uint planeClass) {
   return COPEEL_KEY_LEAST + (depthSign > 0 ? shiftedDifference(bits, depthNearest) : shiftedDifference(depthNearest, bits));
 }
 
-// The plane class. To be asked before anything is written: a plane that holds the eye is seen as a line, and what clipping leaves of its triangles is no fragment.
-uint fragmentPlane() {
+// A plane that holds the eye is seen as a line, and what clipping leaves of its triangles is no fragment. Returns the plane class.
+uint planeOfFragment() {
   uint planeClass = texelFetch(primitiveTexels, int(fragmentPrimitive())).r;
   uvec2 range = texelFetch(planes, int(planeClass) * 2 + 1).zw;
   if (uintBitsToFloat(range.x) > uintBitsToFloat(range.y)) discard;
   return planeClass;
 }
 
-// Likewise; what is behind something opaque is none either for folds that say so (Frame::hideBehind).
+// This, or discardNoFragment(), comes before anything is written. What is behind something opaque is no fragment either, for folds that say so (Frame::hideBehind).
 uint fragmentKey() {
-  uint planeClass = fragmentPlane();
+  uint planeClass = planeOfFragment();
   uint key = depthHardware != 0 ? clamp(floatBitsToUint(gl_FragCoord.z), COPEEL_KEY_LEAST, COPEEL_KEY_NONE - 1u) : keyOfPlane(planeClass);
 #ifdef HIDE_BEHIND_OPAQUE
   if (key > opaqueKeys[pixelIndex()]) discard;
@@ -61,11 +61,11 @@ uint fragmentKey() {
   return key;
 }
 
-// Discards what is no fragment, for passes that count.
-void onlyFragments() {
+// For passes that want no key.
+void discardNoFragment() {
 #ifdef HIDE_BEHIND_OPAQUE
   fragmentKey();
 #else
-  fragmentPlane();
+  planeOfFragment();
 #endif
 }

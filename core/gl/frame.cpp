@@ -16,10 +16,13 @@ namespace {
 
 constexpr GLuint kDepthUnit = 8;
 
+// What a pass wrote is there for the next one, for buffers that are cleared, and for us.
+constexpr GLbitfield kAfterPass = GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT;
+
 // The uniform block of project.comp.glsl, std140.
 struct ProjectionBlock {
   glm::dvec4 eye, clipX, clipY, forward, depth;
-  std::uint32_t perspective, firstObject, padding[2];
+  std::uint32_t perspective, objectCount, firstClip, clipCount;
 };
 
 // The uniform block of frame.glsl, std140.
@@ -63,10 +66,18 @@ ProjectionBlock projectionBlock(const Scene& scene, const View& view) {
   return block;
 }
 
+// What the buffer held is lost, so it goes before there is another.
+void grow(Buffer& buffer, std::size_t bytes) {
+  if (buffer.bytes() >= bytes) return;
+  buffer = Buffer();
+  buffer = Buffer(bytes);
+}
+
 std::size_t texelBytes(GLenum format) {
   switch (format) {
     case GL_R32UI: case GL_R32F: case GL_RGBA8: return 4;
     case GL_RG32UI: case GL_RG32F: return 8;
+    case GL_RGB32UI: return 12;
     case GL_RGBA32UI: case GL_RGBA32F: return 16;
   }
   COPEEL_CHECK(false, "format {}", format);
@@ -99,6 +110,7 @@ void Frame::setView(const View& view, const std::vector<DepthPlane>& depths) {
 
 void Frame::makeTargets() {
   GLuint name = 0;
+  depthShare_ = DeviceMemory(pixelCount() * sizeof(float));
   glCreateTextures(GL_TEXTURE_2D, 1, &name);
   depth_ = Texture(name);
   glTextureStorage2D(name, 1, GL_DEPTH_COMPONENT32F, width_, height_);
@@ -120,20 +132,20 @@ void Frame::makeTargets() {
 
 void Frame::project() {
   ProjectionBlock block = projectionBlock(scene_.scene(), view_);
-  static constexpr GLuint kObjectsPerDispatch = 32768;   // the least that drivers take is 65,535
-  std::uint32_t longest = 0;
-  for (const Object& object : scene_.scene().objects()) longest = std::max(longest, static_cast<std::uint32_t>(object.mesh->vertices.size()));
+  static constexpr std::uint32_t kGroupSize = 64, kVerticesPerDispatch = 32768 * kGroupSize;   // the least groups that drivers take is 65,535
   const Program& program = programs_.find("core/gl/project.comp.glsl", "", {});
   glUseProgram(program.name());
   scene_.vertices().bindStorage(COPEEL_BUFFER_VERTICES);
   scene_.placements().bindStorage(COPEEL_BUFFER_PLACEMENTS);
   clip_.bindStorage(COPEEL_BUFFER_CLIP);
-  const GLuint objects = static_cast<GLuint>(scene_.scene().objects().size());
-  for (GLuint first = 0; first < objects; first += kObjectsPerDispatch) {
-    block.firstObject = first;
+  block.objectCount = static_cast<std::uint32_t>(scene_.scene().objects().size());
+  for (std::uint32_t first = 0; first < scene_.clipCount(); first += kVerticesPerDispatch) {
+    const std::uint32_t count = std::min(kVerticesPerDispatch, scene_.clipCount() - first);
+    block.firstClip = first;
+    block.clipCount = first + count;
     const Buffer uniforms(sizeof block, &block);
     uniforms.bindUniform(COPEEL_BLOCK_FRAME);
-    glDispatchCompute((longest + 63) / 64, std::min(kObjectsPerDispatch, objects - first), 1);
+    glDispatchCompute((count + kGroupSize - 1) / kGroupSize, 1, 1);
   }
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -170,7 +182,7 @@ void Frame::setFold(const FoldSource& fold) {
   if (stateBytes + resultBytes > kMostFoldBytes) {
     failMachine("gl: {} MB for the state of {} pixels; use --backend cpu", (stateBytes + resultBytes) >> 20, pixelCount());
   }
-  if (results_.bytes() < resultBytes) results_ = Buffer(resultBytes);
+  grow(results_, resultBytes);
   for (std::size_t i = 0; i < fold.tables.size(); ++i) {
     if (fold.tables[i].texels != GL_NONE) texels(*fold.tables[i].buffer, static_cast<int>(COPEEL_TEXTURE_FOLD_TABLE + i), fold.tables[i].texels);
   }
@@ -192,7 +204,7 @@ const Program& Frame::pixelProgram(const std::string& file, const std::string& p
 
 const Buffer& Frame::buffer(const std::string& name, int slot, std::size_t bytes) {
   Named& named = buffers_[name];
-  if (named.buffer.bytes() < bytes) named.buffer = Buffer(bytes);
+  grow(named.buffer, bytes);
   named.asked = bytes;
   named.usedIn = frames_;
   named.buffer.bindStorage(static_cast<GLuint>(COPEEL_BUFFER_METHOD + slot));
@@ -200,6 +212,8 @@ const Buffer& Frame::buffer(const std::string& name, int slot, std::size_t bytes
 }
 
 void Frame::texels(const Buffer& buffer, int unit, GLenum format) {
+  const std::size_t count = buffer.bytes() / texelBytes(format);
+  if (count > DeviceMemory::mostTexels()) failMachine("gl: {} texels are more than the {} that the device reads of a buffer", count, DeviceMemory::mostTexels());
   GLuint texture = 0;
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture);
   texels_[unit] = Texture(texture);
@@ -214,6 +228,13 @@ const Buffer& Frame::pixelWords(const std::string& name, int slot, std::size_t w
 std::size_t Frame::keptBytes(const std::string& name) const {
   const auto found = buffers_.find(name);
   return found == buffers_.end() ? 0 : found->second.buffer.bytes();
+}
+
+std::uint64_t Frame::heldBytes() const {
+  std::uint64_t bytes = 0;
+  for (const auto& [name, buffer] : buffers_) bytes += buffer.buffer.bytes();
+  for (const auto& [name, target] : targets_) bytes += target.format ? pixelCount() * texelBytes(target.format) : 0;
+  return bytes;
 }
 
 void Frame::releaseBuffers() {
@@ -233,6 +254,7 @@ void Frame::target(const std::string& name, int attachment, GLenum format) {
   Target& target = targets_[name];
   if (target.format != format) {
     GLuint texture = 0;
+    target.share = DeviceMemory(pixelCount() * texelBytes(format));
     glCreateTextures(GL_TEXTURE_2D, 1, &texture);
     target.texture = Texture(texture);
     glTextureStorage2D(texture, 1, format, width_, height_);
@@ -284,7 +306,7 @@ void Frame::begin() {
 
 void Frame::makeStates() {
   const std::size_t bytes = pixelCount() * fold_.stateWords * 2 * sizeof(std::uint32_t);
-  if (states_.bytes() < bytes) states_ = Buffer(bytes);
+  grow(states_, bytes);
   states_.bindStorage(COPEEL_BUFFER_FOLD_STATE);
 }
 
@@ -317,11 +339,11 @@ void Frame::drawObjects(const Program& program, std::uint32_t begin, std::uint32
   if (culls_) count = culling_->draw(begin, end, [&](std::uint32_t first, std::uint32_t last) { scene_.draw(clip_, first, last); });
   else scene_.draw(clip_, begin, end);
   if (!objectsDrawn_.empty()) objectsDrawn_.back() += count;
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+  glMemoryBarrier(kAfterPass);
 }
 
 void Frame::hideBehind(const std::vector<std::uint8_t>& opaque) {
-  if (opaque_.bytes() < pixelCount() * 4) opaque_ = Buffer(pixelCount() * 4);
+  grow(opaque_, pixelCount() * 4);
   opaque_.clear(COPEEL_KEY_NONE);
   opaque_.bindStorage(COPEEL_BUFFER_OPAQUE);
   const Program& program = geometryProgram("core/gl/opaque.glsl", "OPAQUE");
@@ -345,7 +367,7 @@ void Frame::drawPixels(const Program& program) {
   glUseProgram(program.name());
   glBindVertexArray(noVertices_);
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+  glMemoryBarrier(kAfterPass);
 }
 
 void Frame::clearDepth() {
@@ -377,7 +399,6 @@ bool Frame::anySamplesOf(const std::function<void()>& passes) {
 }
 
 std::vector<std::uint32_t> Frame::result() const {
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   return results_.read<std::uint32_t>(pixelCount() * fold_.resultWords);
 }
 

@@ -73,6 +73,8 @@ class Frame {
 
   std::size_t keptBytes(const std::string& name) const;   // of a buffer asked for before, else 0
 
+  std::uint64_t heldBytes() const;                        // of all buffers and targets, asked for in this frame or an earlier one
+
   void releaseBuffers();   // all of them: what they held is lost, and none is counted any more
 
   // Of an earlier frame of this size, for the method that keeps it.
@@ -148,11 +150,13 @@ class Frame {
   std::map<std::string, Named> buffers_;
   struct Target {
     Texture texture;
+    DeviceMemory share;
     GLenum format = 0;
     std::uint64_t usedIn = 0;
   };
   std::map<std::string, Target> targets_;
   Texture depth_;
+  DeviceMemory depthShare_;
   std::map<int, Texture> texels_;
   Framebuffer framebuffer_, noTargets_;
   VertexArray noVertices_;

@@ -22,7 +22,8 @@ std::vector<std::uint32_t> countsOf(Renderer& renderer, DrawMethod method, const
 }  // namespace
 
 void measure(Renderer& renderer, const MethodInfo& method, const MethodOptions& options, Stats& stats) {
-  const std::vector<std::uint32_t> all = countsOf(renderer, drawLl, {.hardwareDepth = options.hardwareDepth});
+  // sb takes pixels of any depth.
+  const std::vector<std::uint32_t> all = countsOf(renderer, drawSb, {.hardwareDepth = options.hardwareDepth});
   stats.fragments = stats.fragmentsCaptured = stats.capturedMax = stats.depthComplexityMax = stats.coveredPixels = stats.coplanarPixels = stats.uncertain = 0;
   for (std::size_t i = 0; i < all.size(); i += kCountWords) {
     stats.fragments += all[i];

@@ -8,6 +8,8 @@
 
 #include <epoxy/gl.h>
 
+#include "core/gl/device_memory.h"
+
 namespace copeel::gl {
 
 // The name of an object; `Delete` frees it.
@@ -35,7 +37,7 @@ using Framebuffer = Handle<deleteFramebuffer>;
 using VertexArray = Handle<deleteVertexArray>;
 using Query = Handle<deleteQuery>;
 
-// Memory on the device, of a fixed size (bytes).
+// Memory on the device, of a fixed size (bytes). Throws Error{Machine}: more than --memory leaves or than the device can address.
 class Buffer {
  public:
   Buffer() = default;
@@ -59,6 +61,7 @@ class Buffer {
  private:
   Handle<deleteBuffer> name_;
   std::size_t bytes_ = 0;
+  DeviceMemory share_;
 };
 
 }  // namespace copeel::gl

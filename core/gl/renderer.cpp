@@ -1,6 +1,13 @@
 #include "core/gl/renderer.h"
 
+#include <algorithm>
+
 namespace copeel::gl {
+namespace {
+
+constexpr std::uint64_t kCounterBytes = 4096;   // what methods may take in buffers of a few words, which their own sums leave out
+
+}  // namespace
 
 Renderer::Renderer(const Scene& scene, const PlaneClasses& planes, DepthSource depthSource)
     : scene_(scene), planes_(planes), buffers_(scene, planes), frame_(buffers_, programs_, depthSource) {}
@@ -11,7 +18,13 @@ FrameCounts Renderer::draw(DrawMethod method, const MethodOptions& options, cons
   frame_.begin();
   if (before) before(frame_);
   FrameCounts counts;
-  counts.method = method(frame_, options);
+  MethodOptions own = options;
+  // The scene and the fold have had their share of --memory; what the method holds from an earlier frame is its own.
+  if (options.memoryBytes > 0 && DeviceMemory::left() < options.memoryBytes) {
+    const std::uint64_t left = DeviceMemory::left() + frame_.heldBytes();
+    own.memoryBytes = std::clamp<std::uint64_t>(left - std::min(left, kCounterBytes), 1, options.memoryBytes);
+  }
+  counts.method = method(frame_, own);
   frame_.finish();
   counts.passes = frame_.passes();
   counts.objectsDrawn = frame_.objectsDrawn();

@@ -10,9 +10,6 @@ namespace {
 constexpr std::uint32_t kRound = 1024;   // ARRAY_ROUND of sort_array.glsl
 constexpr std::size_t kShort = 128;      // SORT_SHORT of sort_short.glsl
 
-// What shaders address with 32-bit byte offsets, some drivers with signed ones.
-constexpr std::size_t kMostBytes = 0x7FFF0000;
-
 }  // namespace
 
 void deliverArrays(gl::Frame& frame, const std::string& file, const gl::Buffer& fragments, std::size_t most,
@@ -44,9 +41,10 @@ void deliverArrays(gl::Frame& frame, const std::string& file, const gl::Buffer& 
   if (!frame.usesStates()) frame.drawPixels(program("FINISH", {}));
 }
 
-std::size_t roomFor(std::uint64_t memoryBytes, std::size_t others) {
-  if (memoryBytes == 0) return kMostBytes;
-  return std::min<std::size_t>(kMostBytes, memoryBytes > others ? memoryBytes - others : 0);
+std::size_t roomFor(std::uint64_t memoryBytes, std::size_t others, std::size_t texelBytes) {
+  const std::size_t most = std::min(gl::DeviceMemory::largestBuffer(), gl::DeviceMemory::mostTexels() * texelBytes);
+  if (memoryBytes == 0) return most;
+  return std::min<std::size_t>(most, memoryBytes > others ? memoryBytes - others : 0);
 }
 
 }  // namespace copeel

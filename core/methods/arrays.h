@@ -15,7 +15,7 @@ using Uniforms = std::vector<std::pair<const char*, GLuint>>;
 void deliverArrays(gl::Frame& frame, const std::string& file, const gl::Buffer& fragments, std::size_t most,
                    const Uniforms& uniforms = {}, const gl::Defines& defines = {});
 
-// Bytes that a buffer may grow to when the method may use memoryBytes (0: no limit) and needs others beside it.
-std::size_t roomFor(std::uint64_t memoryBytes, std::size_t others);
+// Bytes that a buffer, read as texels of texelBytes, may grow to when the method may use memoryBytes (0: no limit) and needs others beside it.
+std::size_t roomFor(std::uint64_t memoryBytes, std::size_t others, std::size_t texelBytes);
 
 }  // namespace copeel

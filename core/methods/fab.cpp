@@ -17,7 +17,7 @@ MethodCounts drawFab(gl::Frame& frame, const MethodOptions& options) {
   const std::size_t perPlace = frame.pixelCount() * 8;
   const gl::Buffer& pixelCounts = frame.pixelWords("counts", 0);
   const gl::Buffer& overflow = frame.buffer("overflow", 2, 8);
-  const std::size_t most = roomFor(options.memoryBytes, pixelCounts.bytes() + overflow.bytes()) / perPlace;
+  const std::size_t most = roomFor(options.memoryBytes, pixelCounts.bytes() + overflow.bytes(), 8) / perPlace;
   std::size_t capacity = std::min(std::max<std::size_t>(frame.keptBytes("fragments") / perPlace, options.k), most);
   MethodCounts counts{.iterations = 1};
   for (;; ++counts.repeats) {

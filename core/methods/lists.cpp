@@ -43,7 +43,7 @@ MethodCounts drawLists(gl::Frame& frame, const MethodOptions& options, const cha
   const gl::Buffer& counters = frame.buffer("wanted", 2, lists * kCounterWords * 4);
   // One node of each memory is one place.
   const std::size_t placeBytes = kNodeBytes * lists;
-  const std::size_t most = roomFor(options.memoryBytes, heads.bytes() + counters.bytes() + 4) / placeBytes;
+  const std::size_t most = roomFor(options.memoryBytes, heads.bytes() + counters.bytes() + 4, kNodeBytes) / placeBytes;
   const std::size_t start = (frame.pixelCount() * kFirstNodesPerPixel + lists - 1) / lists;
   std::size_t capacity = std::min(std::max(frame.keptBytes("nodes") / placeBytes, start), most);
   MethodCounts counts{.iterations = 1};

@@ -35,7 +35,7 @@ MethodCounts drawSb(gl::Frame& frame, const MethodOptions& options) {
 
   // The size of the memory is the one number that has to come back from the device.
   const std::size_t total = groups.read<std::uint32_t>(2 * kGroups + 1).back();
-  const std::size_t most = roomFor(options.memoryBytes, pixelCounts.bytes() + places.bytes() + groups.bytes()) / 8;
+  const std::size_t most = roomFor(options.memoryBytes, pixelCounts.bytes() + places.bytes() + groups.bytes(), 8) / 8;
   const std::size_t capacity = std::min(total, most);
   if (capacity < total && options.allOrNothing) return {.iterations = 1, .overflow = total - capacity};
   const gl::Buffer& fragments = frame.buffer("fragments", 3, capacity * 8);

@@ -18,7 +18,7 @@ uint hashOf(uint pixel) { return pixel % uint(SB_GROUPS); }   // H(P), 2012
 #if defined(PASS_COUNT)
 
 void main() {
-  onlyFragments();
+  discardNoFragment();
   atomicAdd(counts[pixelIndex()], 1u);
 }
 

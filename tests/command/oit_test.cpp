@@ -21,8 +21,8 @@ class Oit : public ProgramTest {
     write("lost.obj", "mtllib gone.mtl\n" + vertices + "usemtl green\nf 1 2 3 4\n");
     write("looks.mtl", "newmtl green\nKd 0 0.8 0\nd 0.25\n");
   }
-  Rgb8 middle(const Words& words, const std::string& background = "#000000") {
-    Words all = {"oit", "-o", "a.png", "--imgsize", "9,9", "--camera=0.1,0.2,0,0,0,0,10", "--shading", "none", "--background", background};
+  Rgb8 middle(const Words& words, const std::string& shading = "none") {
+    Words all = {"oit", "-o", "a.png", "--imgsize", "9,9", "--camera=0.1,0.2,0,0,0,0,10", "--shading", shading, "--background", "#000000"};
     all.insert(all.end(), words.begin(), words.end());
     const Outcome outcome = run(all);
     EXPECT_EQ(outcome.exitCode, 0) << outcome.standardError;
@@ -44,6 +44,25 @@ TEST_F(Oit, TheLookOnTheCommandLineComesBeforeTheFiles) {
 TEST_F(Oit, CoplanarMeshesBlendInTheOrderOfTheCommandLine) {
   EXPECT_EQ(middle({"plain.obj:color=#c80000", "plain.obj:color=#00c800"}), (Rgb8{50, 100, 0}));
   EXPECT_EQ(middle({"plain.obj:color=#00c800", "plain.obj:color=#c80000"}), (Rgb8{100, 50, 0}));
+}
+
+// The square faces the eye: a light straight ahead gives its whole strength, one 3:4 aside 4/5 of it, and 0.2 are there anyway.
+TEST_F(Oit, LightsAddUpAndEachChannelStopsAtItsLimit) {
+  for (const char* command : {"oit", "csg"}) {
+    const auto lit = [&](Words lights) {
+      Words all = {command, "plain.obj:color=#c86432,alpha=1", "-o", "a.png", "--imgsize", "9,9", "--camera=0.1,0.2,0,0,0,0,10"};
+      all.insert(all.end(), lights.begin(), lights.end());
+      const Outcome outcome = run(all);
+      EXPECT_EQ(outcome.exitCode, 0) << outcome.standardError;
+      return readPng((folder_ / "a.png").string()).at(4, 4);
+    };
+    EXPECT_EQ(lit({"--light", "0,0,1,0.5"}), (Rgb8{140, 70, 35})) << command;
+    EXPECT_EQ(lit({"--light", "0,0,1,0.5", "--light", "-3,0,4,0.25"}), (Rgb8{180, 90, 45})) << command;
+    EXPECT_EQ(lit({"--light", "0,0,-1e200,0.5"}), (Rgb8{140, 70, 35})) << command;      // both sides of a face alike
+    EXPECT_EQ(lit({"--light", "1,0,0"}), (Rgb8{40, 20, 10})) << command;
+    EXPECT_EQ(lit({"--light", "0,0,1", "--light", "0,0,2"}), (Rgb8{255, 220, 110})) << command;
+    EXPECT_EQ(lit({"--light", "-1,1,1"}), lit({})) << command;
+  }
 }
 
 TEST_F(Oit, AMissingLibraryIsAWarning) {

@@ -61,6 +61,17 @@ TEST_F(Usage, RefusedWithOneLine) {
       {"csg", "part.csg", "--background", "white"},
       {"csg", "part.csg", "--background", "#12345g"},
       {"csg", "part.csg", "--shading", "phong"},
+      {"csg", "part.csg", "--light", "1,2"},
+      {"csg", "part.csg", "--light", "0,0,0"},
+      {"csg", "part.csg", "--light", "0,0,0,2"},
+      {"csg", "part.csg", "--light", "1,1,1,-1"},
+      {"csg", "part.csg", "--light", "1,1,1,1e7"},
+      {"csg", "part.csg", "--light", "1,1,1,1,1"},
+      {"csg", "part.csg", "--light", "left"},
+      {"csg", "part.csg", "--light", "1,inf,1"},
+      {"csg", "part.csg", "--light", "0,0,1", "--shading", "none"},
+      {"csg", "part.csg", "--depth-source", "hardware"},
+      {"csg", "part.csg", "--depth-source", "hardware", "--method", "zbuffer"},
       {"csg", "part.csg", "-D", "x=1"},
       {"csg", "part.scad", "-D", "x="},
       {"csg", "part.scad", "-D", "x= ;"},
@@ -80,6 +91,7 @@ TEST_F(Usage, RefusedWithOneLine) {
       {"oit", "a.stl", "--alpha", "-0.1"},
       {"oit", "a.stl", "--alpha", "half"},
       {"oit", "a.stl", "--color", "red"},
+      {"oit", "part.csg", "--shading", "none", "--light", "0,0,1"},
       {"oit", "a.stl", "--expr", "A"},
       {"oit", "a.stl", "--method", "nonsense"},
       {"oit", "part.csg", "--layers", "part.csg"},
@@ -109,6 +121,12 @@ TEST_F(Usage, MethodsAsTableAndJson) {
   for (const auto& method : list) {
     for (const char* key : {"name", "backend", "robust", "rh", "passes", "memory", "paper_words", "title", "source"}) EXPECT_TRUE(method.contains(key)) << key;
   }
+}
+
+TEST_F(Usage, MoreThreadsThanCoresAreNothingToWarnOf) {
+  const Outcome outcome = run({"csg", "part.csg", "--imgsize", "64,48", "--threads", "67", "-o", "a.png"});
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_TRUE(outcome.standardError.empty()) << outcome.standardError;
 }
 
 TEST_F(Usage, EveryOptionTogether) {

@@ -33,6 +33,12 @@ TEST(ObjColors, materialsColourTheFacesAfterThem) {
   EXPECT_TRUE(read.warnings.empty());
 }
 
+TEST(ObjColors, aLibraryMayBeginWithAByteOrderMark) {
+  const Read read = readObjWith("\xef\xbb\xbfmtllib some looks.mtl\n" + kVertices + "usemtl glass\nf 1 2 3\n", "\xef\xbb\xbfnewmtl glass\nKd 1 0 0\n");
+  EXPECT_EQ(read.mesh.colors, (Colors{{255, 0, 0, 1}}));
+  EXPECT_TRUE(read.warnings.empty());
+}
+
 TEST(ObjColors, whatIsMissingIsNamed) {
   const Read library = readObjWith("mtllib gone.mtl\n" + kVertices + "usemtl glass\nf 1 2 3\n", "");
   ASSERT_EQ(library.warnings.size(), 1u);

@@ -1,6 +1,7 @@
 // The methods that gather into buffers: robust ones deliver the stacks of `ll` to the bit, approximate ones exactly what they promise of them.
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "core/methods/method.h"
 #include "tests/support/gl_scenes.h"
 #include "tests/support/gl_stacks.h"
@@ -140,6 +141,33 @@ TEST(GlBuffers, tenThousandFragmentsInAPixel) {
       }
     }
   }
+}
+
+// A driver would end in a fault rather than say so.
+TEST(GlBuffers, whatShadersCannotAddressIsRefused) {
+  const Scene scene = copiesOf(share(squareAt(0)), 1);
+  const PlaneClasses planes(scene, 0);
+  gl::Renderer renderer(scene, planes);
+  EXPECT_THROW(gl::Buffer((std::size_t{1} << 31) + 4), Error);
+  for (const char* method : {"kb", "k-plus", "srab"}) {
+    EXPECT_THROW(glStacksOf(renderer, above(640, 420), findMethod(method)->draw, {.k = 1024}, 1), Error) << method;
+  }
+}
+
+TEST(GlBuffers, sharesOfMemoryAddUpToTheLimit) {
+  const gl::Context context;
+  gl::DeviceMemory::limit(1 << 20);
+  {
+    gl::Buffer first(600'000);
+    EXPECT_THROW(gl::Buffer(600'000), Error);
+    first = gl::Buffer();
+    EXPECT_EQ(gl::DeviceMemory::left(), 1u << 20);
+    const gl::Buffer second(600'000), third(400'000);
+    EXPECT_EQ(gl::DeviceMemory::left(), (1u << 20) - 1'000'000);
+  }
+  EXPECT_EQ(gl::DeviceMemory::left(), 1u << 20);
+  gl::DeviceMemory::limit(0);
+  EXPECT_EQ(gl::DeviceMemory::left(), ~std::uint64_t{0});
 }
 
 TEST(GlBuffers, kBuffersKeepTheNearest) {

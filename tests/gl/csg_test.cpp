@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include "core/error.h"
+#include "core/gl/context.h"
 #include "tests/csg_render/random_models.h"
 #include "core/methods/method.h"
 #include "tests/support/draw.h"
@@ -120,6 +122,27 @@ TEST(GlCsg, approximateMethodsSayWhatTheyLose) {
     EXPECT_EQ(stats.fragmentsCaptured, twoADepth && method.name != "multi-kb" ? all / 3 * 2 : all / 3);
     // What is seen first is a face of each of them.
     EXPECT_EQ(frame.depth.pixels, whole.depth.pixels);
+  }
+}
+
+// 7,000 leaves are more turns of loops than llvmpipe allows a shader, and it would leave the rest of a pixel's state undone: a picture that looks right.
+TEST(GlCsg, aModelTooLargeForTheDriversLoopsIsRefused) {
+  const MeshPointer cube = share(box({0, 0, 0}, {1, 1, 1}));
+  const auto leaves = [&](int count) {
+    std::vector<Tree> all;
+    for (int i = 0; i < count; ++i) all.push_back(leaf(cube, {}, translation({2.0 * (i % 80), 2.0 * (i / 80), 0})));
+    return modelOf(unite(all));
+  };
+  const View view = lookAt({80.37, 60.41, 300}, {80.37, 60.41, 0}, 9, 9, 0.05);
+  const bool software = gl::Context().isSoftware();   // at an end before there is another
+  const csg::Model some = leaves(1000), tooMany = leaves(7000);
+  EXPECT_EQ(draw(some, view, with("ll")).frame.ids.pixels, draw(some, view).frame.ids.pixels);
+  csg::Renderer renderer(tooMany, with("ll"));
+  try {
+    renderer.draw(view);
+    if (software) ADD_FAILURE() << "drawn";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::Machine) << error.what();
   }
 }
 

@@ -21,6 +21,7 @@ oit::Frame drawnWith(std::string_view method, double offset = 0, std::string_vie
   oit::RenderOptions options;
   options.method = findMethod(method, backend);
   options.methodOptions.k = 3;
+  options.lights = {{{1, 2, 3}, 0.7}, {{-2, 1, 0.5}, 0.4}};
   options.wantDepth = options.wantIds = options.wantLayers = options.wantCoplanar = true;
   View view = lookAt({3, 2, 4}, {0, 0, 0}, 64, 48, 0.02);
   view.offset = {offset, offset};
@@ -113,6 +114,46 @@ TEST(GlOit, kBuffersOfBothBackEndsKeepTheSame) {
   EXPECT_EQ(wrong, 0);
   EXPECT_GT(compared, 300);
   EXPECT_GT(shortened, 300);
+}
+
+// More vertices than one dispatch of groups projects, all but the last of which no triangle uses; and objects without any.
+TEST(GlOit, aMeshOfFourMillionVertices) {
+  const View view = lookAt({0.521, 0.532, 20}, {0.521, 0.532, 0}, 21, 21, 0.001);
+  const auto drawn = [&](std::size_t unused) {
+    const Mesh square = quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+    Mesh large;
+    large.vertices.assign(unused, glm::dvec3(0.5, 0.5, 0));
+    large.vertices.insert(large.vertices.end(), square.vertices.begin(), square.vertices.end());
+    for (const glm::uvec3& t : square.triangles) large.triangles.push_back(t + static_cast<std::uint32_t>(unused));
+    oit::RenderOptions options;
+    options.method = findMethod("ll");
+    options.wantLayers = true;
+    const MeshPointer none = share(Mesh{});
+    return oit::Renderer({{none}, {none}, {share(large), {200, 30, 30, 0.5}, {}, glm::dmat4(1.0)}, {none}}, options).draw(view);
+  };
+  const oit::Frame small = drawn(0), large = drawn(4'200'000);
+  EXPECT_EQ(large.layers.at(10, 10), 1);
+  EXPECT_EQ(large.layers.pixels, small.layers.pixels);
+  EXPECT_EQ(large.color.pixels, small.color.pixels);
+}
+
+// What a method delivers is counted beside it by one that takes any number of fragments.
+TEST(GlOit, twentyOneThousandFragmentsInAPixelAreMeasured) {
+  constexpr std::uint32_t kCount = 21'000;
+  Mesh stack = quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+  stack.triangles.assign(kCount, {0, 1, 2});
+  stack.facets.clear();
+  oit::RenderOptions options;
+  options.method = findMethod("sb");
+  options.wantLayers = options.wantCoplanar = true;
+  oit::Renderer renderer({{share(stack), {200, 30, 30, 1e-4f}, {}, glm::dmat4(1.0)}}, options);
+  const oit::Frame frame = renderer.draw(lookAt({0.71, 0.32, 20}, {0.71, 0.32, 0}, 1, 1, 0.001));
+  renderer.measure();
+  EXPECT_EQ(frame.layers.at(0, 0), kCount);
+  EXPECT_EQ(frame.coplanar.at(0, 0), kCount);
+  EXPECT_EQ(renderer.stats().fragments, kCount);
+  EXPECT_EQ(renderer.stats().fragmentsCaptured, kCount);
+  EXPECT_EQ(renderer.stats().depthComplexityMax, kCount);
 }
 
 }  // namespace

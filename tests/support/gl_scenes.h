@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "core/scene/scene.h"
@@ -47,6 +48,19 @@ inline Scene voxelCity() {
   return Scene(std::move(objects));
 }
 
+// Triangles in a plane that the eye at (1, 2, 3) lies in, before a ball: what the rasterizer finds of them is no fragment.
+inline Scene sheetThroughTheEye() {
+  Mesh sheet;
+  std::uint32_t seed = 1;
+  const auto next = [&] { return double((seed = seed * 1664525u + 1013904223u) >> 16) / 65536 * 800 - 400; };
+  for (std::uint32_t i = 0; i < 3 * 400; ++i) {
+    const double x = std::round(next()), y = std::round(next());
+    sheet.vertices.emplace_back(x, y, 6 - x - y);
+    if (i % 3 == 0) sheet.triangles.emplace_back(i, i + 1, i + 2);
+  }
+  return Scene({{share(std::move(sheet)), glm::dmat4(1.0)}, {share(sphere(20, 17, 9)), translation({-50, 23, 33})}});
+}
+
 inline View above(int width, int height, double pixel = 0.03) { return lookAt({0.5, 0.5, 20}, {0.5, 0.5, 0}, width, height, pixel, false); }
 
 inline std::vector<GlScene> glScenes() {
@@ -60,12 +74,13 @@ inline std::vector<GlScene> glScenes() {
   scenes.push_back({"voxel city", voxelCity(), lookAt({8, 6, 7}, {1.5, 1.5, 1}, 64, 48, 0.015)});
   scenes.push_back({"interpenetrating", Scene({{ball, here}, {cube, here}, {cube, rotation({0, 0, 90})}, {cube, rotation({0, 30, 0})}}), aside});
   scenes.push_back({"box in box", Scene({{cube, here}, {cube, scaling({0.5, 0.5, 0.5})}}), aside});
-  scenes.push_back({"one triangle", Scene({{share(Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}}), here}}), above(64, 48)});
+  scenes.push_back({"one triangle", Scene({{share(Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}, {}}), here}}), above(64, 48)});
   scenes.push_back({"nothing", Scene(std::vector<Object>{}), above(64, 48)});
   scenes.push_back({"one pixel", copiesOf(ball, 3), lookAt({3, 2, 4}, {0, 0, 0}, 1, 1, 0.5)});
   scenes.push_back({"wide", copiesOf(ball, 3), lookAt({3, 2, 4}, {0, 0, 0}, 301, 2, 0.005)});
   scenes.push_back({"300 layers", copiesOf(share(squareAt(0)), 300, {0, 0, 0.01}), above(32, 24, 0.06)});
   scenes.push_back({"300 coplanar", copiesOf(share(squareAt(0)), 300), above(32, 24, 0.06)});
+  scenes.push_back({"sheet through the eye", sheetThroughTheEye(), lookAt({1, 2, 3}, {-50, 23, 33}, 64, 48, 0.0083)});
   return scenes;
 }
 

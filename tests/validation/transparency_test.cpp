@@ -61,6 +61,13 @@ TEST(Transparency, Coincident_copies_all_blend) {
   }
 }
 
+TEST(Transparency, Two_lights) {
+  oit::RenderOptions options;
+  options.lights = {{{3, -1, 2}, 0.6}, {{-1, 0, 0.25}, 0.5}};
+  expectExact(copies(bumpySphere(2, 30, 16), 4, false), kOblique, options);
+  expectExact(copies(torusKnot(0.9, 60, 8), 2, false), kParallel, options);
+}
+
 TEST(Transparency, Copies_with_their_triangles_in_another_order_and_turned) {
   for (const unsigned count : {4u, 12u}) expectExact(copies(bumpySphere(2, 30, 16), count, true), kOblique);
 }
