@@ -73,10 +73,6 @@ const std::vector<MethodInfo>& methods() {
 
 namespace {
 
-bool takes(const MethodInfo& method, std::string_view modifier) {
-  return modifier.size() > 1 && method.modifiers.find(modifier) != std::string_view::npos;
-}
-
 // "+a+b" as "+a", "+b".
 std::vector<std::string_view> modifiersOf(std::string_view text) {
   std::vector<std::string_view> all;
@@ -85,6 +81,11 @@ std::vector<std::string_view> modifiersOf(std::string_view text) {
     text.remove_prefix(all.back().size());
   }
   return all;
+}
+
+bool takes(const MethodInfo& method, std::string_view modifier) {
+  const std::vector<std::string_view> taken = modifiersOf(method.modifiers);
+  return std::find(taken.begin(), taken.end(), modifier) != taken.end();
 }
 
 }  // namespace

@@ -113,7 +113,7 @@ TEST(GlOit, kBuffersOfBothBackEndsKeepTheSame) {
   }
   EXPECT_EQ(wrong, 0);
   EXPECT_GT(compared, 300);
-  EXPECT_GT(shortened, 300);
+  EXPECT_GT(shortened, 100);   // K = 3 is too short for many pixels
 }
 
 // More vertices than one dispatch of groups projects, all but the last of which no triangle uses; and objects without any.
