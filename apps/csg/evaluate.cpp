@@ -3,7 +3,7 @@
 // - of nested colours the outermost one that names red, green and blue shows, or the innermost; a % operand is taken out of its operation; a ! anywhere is the whole model, without
 //   the matrices above it;
 // - an operand that carries # is seen through where a union holds it among others (so is the whole of a difference whose first operand carries
-//   it), and lies over the solid elsewhere; what carries % or # within a node that is one shape, as hull() is, shows beside that shape;
+//   it), and lies over the solid elsewhere; what carries % or # within hull, minkowski or resize shows beside the one shape that these are;
 // - in a difference or an intersection the first child with a dimension decides whether 2D or 3D ones count; the others are left out;
 // - a matrix with NaN or infinity, or a singular one, leaves the empty set and a warning.
 #include "apps/csg/evaluate.h"
@@ -32,12 +32,13 @@ bool isFinite(const glm::dmat4& m) {
 
 constexpr std::uint8_t kShownMarks = kBackground | kHighlight;
 
-// Of each node: whether one below it carries % or #.
+// Of each node: whether one below it carries % or # and is shown.
 std::vector<std::uint8_t> marksBelow(const SyntaxTree& tree) {
   std::vector<std::uint8_t> result(tree.nodes.size(), 0);
   const auto isMarked = [](const SyntaxNode& node) { return (node.modifiers & kShownMarks) != 0; };
   if (std::none_of(tree.nodes.begin(), tree.nodes.end(), isMarked)) return result;
   for (std::size_t i = result.size(); i-- > 0;) {
+    if (!isTreeKeyword(tree.nodes[i].keyword) && !showsMarksWithin(tree.nodes[i].keyword)) continue;
     for (std::size_t child = i + 1; child < tree.nodes[i].subtreeEnd && !result[i]; child = tree.nodes[child].subtreeEnd) {
       result[i] = !(tree.nodes[child].modifiers & kDisabled) && (isMarked(tree.nodes[child]) || result[child]);
     }
@@ -74,6 +75,7 @@ class Evaluator {
     std::uint32_t firstPending = 0;      // its operands wait from here on
     std::uint32_t placementCount = 1;    // the last of so many placements holds here
     bool isRender = false;
+    std::uint8_t shapesAround = 0;
     bool marksOnly = false;              // within a shape: only what carries % or # is placed
     // The operands of a union below it are not seen by themselves.
     bool hidesUnions() const { return operation != Operation::Union || isRender || marksOnly; }
@@ -112,9 +114,10 @@ class Evaluator {
     if (passedOver && !marksBelow_[index]) return node.subtreeEnd;
     const bool isShape = !isTreeKeyword(node.keyword);
     if (isShape && !passedOver) placeLeaf(index);
-    if (isShape && !marksBelow_[index]) return node.subtreeEnd;
+    if (isShape && (!marksBelow_[index] || open_.back().shapesAround == kMostShapesWithinShapes)) return node.subtreeEnd;
     Frame frame = frameOf(index);
     frame.marksOnly = isShape || passedOver;
+    frame.shapesAround += isShape;
     if (node.keyword == Keyword::Color && !isWhole(placement().color)) pushPlacement(frame).color = colorOf(tree_, node);
     if (node.keyword == Keyword::Multmatrix && !multiply(pushPlacement(frame), node)) {
       placements_.pop_back();

@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/csg/content_hash.h"
 #include "apps/csg/flat.h"
 #include "apps/csg/openscad_log.h"
 #include "apps/csg/process.h"
@@ -26,23 +27,6 @@ namespace copeel::csg {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Fowler, Noll and Vo's 128-bit hash (FNV-1a).
-class Hash {
- public:
-  void add(std::string_view bytes) {
-    for (const char c : bytes) state_ = (state_ ^ static_cast<unsigned char>(c)) * kPrime;
-    state_ = (state_ ^ bytes.size()) * kPrime;   // so that "ab", "c" is not "a", "bc"
-  }
-  std::string hex() const {
-    return fmt::format("{:016x}{:016x}", static_cast<std::uint64_t>(state_ >> 64), static_cast<std::uint64_t>(state_));
-  }
-
- private:
-  using Wide = unsigned __int128;
-  static constexpr Wide kPrime = (Wide(1) << 88) + 0x13B;
-  Wide state_ = (Wide(0x6C62272E07BB0142u) << 64) | 0x62B821756295C58Du;
-};
 
 std::string quotedForOpenscad(const std::string& text) {
   std::string result = "\"";
@@ -89,7 +73,7 @@ struct Writer {
   const SyntaxTree& tree;
   const std::string& folder;
   std::string text;
-  Hash hash;
+  ContentHash hash;
 
   void write(std::uint32_t root) {
     const SyntaxNode& first = tree.nodes[root];
@@ -134,12 +118,7 @@ struct Writer {
   void copy(std::size_t& copied, std::size_t end) {
     const std::string_view part = tree.text.substr(copied, end - copied);
     text += part;
-    // White space depends on the depth of nesting only.
-    std::string dense;
-    for (const char c : part) {
-      if (c != ' ' && c != '\t' && c != '\n' && c != '\r') dense += c;
-    }
-    hash.add(dense);
+    hash.addDense(part);   // white space depends on the depth of nesting only
     copied = end;
   }
 };
@@ -166,12 +145,15 @@ std::vector<std::uint32_t> externalRoots(const SyntaxTree& tree) {
       i = node.subtreeEnd;
       continue;
     }
-    if (ranges.back().isEvaluated && node.modifiers & (kBackground | kHighlight)) ranges.push_back({node.subtreeEnd, false});
+    // Two ranges for each shape around this one.
+    const bool isShown = node.modifiers & (kBackground | kHighlight) && ranges.size() < 2 * kMostShapesWithinShapes;
+    if (ranges.back().isEvaluated && isShown) ranges.push_back({node.subtreeEnd, false});
     if (!ranges.back().isEvaluated && isExternalNode(tree, i)) {
       roots.push_back(i);
       ranges.push_back({node.subtreeEnd, true});
     }
-    ++i;
+    const bool hidesMarks = !isTreeKeyword(node.keyword) && !showsMarksWithin(node.keyword);
+    i = ranges.back().isEvaluated && hidesMarks ? node.subtreeEnd : i + 1;
   }
   return roots;
 }

@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 
 #include "apps/csg/arguments.h"
+#include "apps/csg/content_hash.h"
 #include "apps/csg/extrude.h"
 #include "apps/csg/flat.h"
 #include "core/error.h"
@@ -48,6 +49,10 @@ bool isFlatFile(const std::string& file) { return extensionOf(file) == ".dxf" ||
 
 bool isTreeKeyword(Keyword keyword) { return keyword <= Keyword::Render; }
 
+bool showsMarksWithin(Keyword keyword) {
+  return keyword == Keyword::Hull || keyword == Keyword::Minkowski || keyword == Keyword::Resize;
+}
+
 bool isExternalNode(const SyntaxTree& tree, std::uint32_t index) {
   const SyntaxNode& node = tree.nodes[index];
   if (node.keyword >= Keyword::Text) return true;
@@ -69,7 +74,7 @@ std::vector<std::uint8_t> dimensionsOf(const SyntaxTree& tree) {
       case Keyword::Import: dimensions[i] = isFlatFile(fileOf(tree, node)) ? 2 : 3; continue;
       default: break;
     }
-    if (!isTreeKeyword(node.keyword) && node.keyword != Keyword::Hull && node.keyword != Keyword::Minkowski && node.keyword != Keyword::Resize) {
+    if (!isTreeKeyword(node.keyword) && !showsMarksWithin(node.keyword)) {
       dimensions[i] = 3;
       continue;
     }
@@ -98,14 +103,13 @@ std::string Shapes::keyOf(const SyntaxNode& node) const {
     }
     default: break;
   }
-  // The text itself, without the white space that depends on the depth of nesting; where strings are in it, as it stands.
+  // The text, without the white space that depends on the depth of nesting; where strings are in it, as it stands. It may be as long as the
+  // file, and shapes may stand within shapes.
   const std::string_view text = tree_.text.substr(node.textBegin, node.textEnd - node.textBegin);
-  if (text.find('"') != std::string_view::npos) return std::string(text);
-  std::string key;
-  for (const char c : text) {
-    if (c != ' ' && c != '\t' && c != '\n' && c != '\r') key += c;
-  }
-  return key;
+  ContentHash hash;
+  if (text.find('"') == std::string_view::npos) hash.addDense(text);
+  else hash.add(text);
+  return hash.hex();
 }
 
 MeshPointer Shapes::meshOf(std::uint32_t index) {

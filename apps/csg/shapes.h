@@ -41,6 +41,13 @@ class Shapes {
 // What a node makes by itself, whatever its children are.
 bool isTreeKeyword(Keyword keyword);       // group … render: its children are placed one by one
 
+// One shape, but openscad shows what carries % or # within: hull, minkowski and resize, not extrusions, offset or projection.
+bool showsMarksWithin(Keyword keyword);
+
+// What carries % or # within a shape is a shape of its own, and may hold more of them. Each costs as much as all below it, so that there is an
+// end to it.
+inline constexpr std::size_t kMostShapesWithinShapes = 64;
+
 // Only openscad itself evaluates this node with all below it.
 bool isExternalNode(const SyntaxTree& tree, std::uint32_t node);
 

@@ -259,20 +259,30 @@ TEST_F(Files, whatOpenscadMustEvaluateIsEvaluatedOnceAndKept) {
   EXPECT_EQ(fileCount(options_.cacheFolder), 8u);
 }
 
-// What carries % or # within hull(), linear_extrude() … is shown beside the one shape that these make.
+// What carries % or # within hull, minkowski and resize is shown beside the one shape that these make, within extrusions it is not.
 TEST_F(Files, marksWithinAShapeAreShown) {
   SKIP_WITHOUT_OPENSCAD();
   const Model model = parseCsg("hull() { multmatrix([[1,0,0,7]]) { union() { %cube(8); cube(3); } } cube(1); }\n"
                                "linear_extrude(height = 2) { #square(5); circle(1); *%square(9); }\n"
                                "minkowski() { cube(1); #hull() { cube(2); cube(1); %sphere(1); } }\n", "a.csg", folder_.path(), options_);
   ASSERT_EQ(model.background.size(), 2u);
-  ASSERT_EQ(model.highlight.size(), 2u);
+  ASSERT_EQ(model.highlight.size(), 1u);
   const auto boundsOf = [&](std::uint32_t node) { return boundingBox(*model.leaves.at(model.nodes[node].leaf).mesh); };
   EXPECT_EQ(model.leaves.at(model.nodes[model.background[0]].leaf).worldFromObject[3].x, 7);
   EXPECT_EQ(boundsOf(model.background[0]).max, glm::dvec3(8));
-  EXPECT_EQ(boundsOf(model.highlight[0]).max, glm::dvec3(5, 5, 0.5));
-  EXPECT_EQ(boundsOf(model.highlight[1]).max, glm::dvec3(2));
+  EXPECT_EQ(boundsOf(model.highlight[0]).max, glm::dvec3(2));
   EXPECT_EQ(model.nodes[model.root].childCount, 3u) << "three shapes alone are the solid";
+}
+
+// Each of them costs as much as all below it.
+TEST_F(Files, marksInADeepNestingOfShapesCostNoMoreThanAFew) {
+  options_.openscad = write("openscad", "#!/bin/sh\nhead -c 84 /dev/zero >\"$4\"\n");
+  std::filesystem::permissions(options_.openscad, std::filesystem::perms::owner_all);
+  std::string text;
+  for (int i = 0; i < 3000; ++i) text += "hull() { #";
+  const Model model = parseCsg(text + "cube(9);" + std::string(3000, '}'), "a.csg", folder_.path(), options_);
+  EXPECT_LE(model.highlight.size(), 65u);
+  EXPECT_LE(fileCount(options_.cacheFolder), 65u);
 }
 
 // Copeel's own files and what only they hold are no business of the user.
