@@ -1,7 +1,9 @@
 #include "core/gl/program.h"
 
 #include <algorithm>
-#include <regex>
+#include <charconv>
+#include <optional>
+#include <system_error>
 
 #include "core/error.h"
 #include "core/gl/embedded_shaders.h"
@@ -43,13 +45,34 @@ void appendFile(const std::string& path, const Defines& defines, std::vector<std
   source += "\n#endif\n";
 }
 
-// The first complaint, with the file's name for its number: Mesa writes "2:14(5): error: …", NVIDIA "2(14) : error …".
-std::string firstComplaint(const std::string& log, const std::vector<std::string>& files) {
-  static const std::regex place(R"(^(\d+)[:(](\d+)\)?[^\n]*?error[^:]*:\s*([^\n]*))", std::regex::multiline);
-  std::smatch match;
-  if (!std::regex_search(log, match, place)) return log.substr(0, log.find('\n'));
-  const std::size_t number = std::stoul(match[1]);
-  return fmt::format("{}:{}: {}", number < files.size() ? files[number] : "?", match[2].str(), match[3].str());
+struct Complaint {
+  std::size_t file = 0, line = 0;
+  std::string_view cause;
+};
+
+// What a row of a log complains of: Mesa writes "2:14(5): error: …", NVIDIA "2(14) : error …".
+std::optional<Complaint> complaintOf(std::string_view row) {
+  Complaint found;
+  const char* const end = row.data() + row.size();
+  const auto [afterFile, noFile] = std::from_chars(row.data(), end, found.file);
+  if (noFile != std::errc() || afterFile == end || (*afterFile != ':' && *afterFile != '(')) return std::nullopt;
+  if (std::from_chars(afterFile + 1, end, found.line).ec != std::errc()) return std::nullopt;
+  const std::size_t colon = row.find(':', row.find("error"));
+  if (colon == std::string_view::npos) return std::nullopt;
+  found.cause = row.substr(std::min(row.find_first_not_of(' ', colon + 1), row.size()));
+  return found;
+}
+
+// The first complaint, with the file's name for its number.
+std::string firstComplaint(std::string_view log, const std::vector<std::string>& files) {
+  for (std::string_view rest = log; !rest.empty();) {
+    const std::string_view row = rest.substr(0, rest.find('\n'));
+    if (const auto found = complaintOf(row)) {
+      return fmt::format("{}:{}: {}", found->file < files.size() ? files[found->file] : "?", found->line, found->cause);
+    }
+    rest.remove_prefix(std::min(row.size() + 1, rest.size()));
+  }
+  return std::string(log.substr(0, log.find('\n')));
 }
 
 void compileInto(GLuint program, GLenum stage, const std::string& path, const Defines& defines) {
