@@ -71,6 +71,7 @@ void GlPass::draw(const View& view, const fold::OverTables& tables, const glm::v
   const gl::FrameCounts counts = state.renderer.draw(method.draw, state.options);
   stats.passes += counts.passes;
   stats.overflow = counts.method.overflow;
+  stats.iterations = counts.method.iterations;
   stats.methodBytes = counts.methodBytes;
   stats.objectsDrawn = counts.objectsDrawn;
   stats.passMs = counts.passMs;

@@ -16,6 +16,7 @@ struct MethodInfo {
   std::string_view backend;     // cpu, gl
   std::string_view passes;      // over the geometry, a formula
   std::string_view memory;      // bytes, a formula
+  std::string_view paperWords;  // the same in the papers, 32-bit words a pixel (2013, Table 1); empty where they do not say
   std::string_view robustness;  // R_h, a formula
   bool robust;                  // delivers every fragment
   DrawMethod draw = nullptr;    // of the gl back end
