@@ -14,6 +14,7 @@
 namespace copeel::bench {
 namespace {
 
+constexpr const char* kNoTime = "left out: no time is left";
 constexpr double kEnoughMs = 1500;         // of one method in one scene: then its timed frames end
 constexpr double kFramesToWarm = 4;        // two frames, the counts, which are another one, and one that is timed
 constexpr double kPassesThatTell = 3;      // a method of so many tells the time of a pass; of fewer, other work takes as long
@@ -38,7 +39,8 @@ class Turns {
   std::vector<Entry*> entries_;
   std::vector<double> passes_, leastMs_;   // expected passes; of frames, least so far
   double owedMs_ = 0;                      // one timed frame of each method so far
-  double passMs_ = 0;                      // of the slowest method of many passes; 0: none yet
+  double tellingMs_ = 0, tellingPasses_ = 0;   // of the methods of many passes so far
+  double passMs_ = 0;                          // one of theirs; before there is any, by the methods of few; 0: none yet
 };
 
 double Turns::expectedMs(std::size_t i) const { return runs_[i].method->backend == "gl" ? passes_[i] * passMs_ : 0; }
@@ -48,8 +50,8 @@ void Turns::warmOne(std::size_t i) {
   Entry& entry = *entries_[i];
   const double left = deadline_.leftMs() - owedMs_, expected = expectedMs(i);
   if (kFramesToWarm * expected > left || left <= 0) {
-    entry.leftOut = expected > 0 ? fmt::format("left out: {:.0f} passes would take {:.1f} s a frame, and {:.1f} s are left", passes_[i], expected / 1e3, std::max(left, 0.0) / 1e3)
-                                 : "left out: no time is left";
+    entry.leftOut = expected > 0 && left > 0 ? fmt::format("left out: {:.0f} passes would take {:.1f} s a frame, and {:.1f} s are left", passes_[i], expected / 1e3, left / 1e3)
+                                             : kNoTime;
     return;
   }
   try {
@@ -60,9 +62,14 @@ void Turns::warmOne(std::size_t i) {
     return;
   }
   owedMs_ += leastMs_[i];
-  const bool tells = entry.backend == "gl" && double(entry.stats.passes) >= kPassesThatTell;
-  if (tells) passMs_ = std::max(passMs_, leastMs_[i] / double(entry.stats.passes));
-  else if (entry.backend == "gl" && passMs_ == 0) passMs_ = leastMs_[i] / std::max(passes_[i], kPassesThatTell);
+  if (entry.backend != "gl") return;
+  if (double(entry.stats.passes) >= kPassesThatTell) {
+    tellingMs_ += leastMs_[i];
+    tellingPasses_ += double(entry.stats.passes);
+    passMs_ = tellingMs_ / tellingPasses_;
+  } else if (tellingPasses_ == 0) {
+    passMs_ = leastMs_[i] / kPassesThatTell;
+  }
 }
 
 void Turns::warm(std::vector<Entry*> entries) {
@@ -114,6 +121,10 @@ std::vector<Entry> run(const BenchScene& scene, int width, int height, const Mea
       theirs.push_back(&entries[i]);
     }
     if (runs.empty()) continue;
+    if (deadline.leftMs() <= 0) {
+      for (Entry* entry : theirs) entry->leftOut = kNoTime;
+      continue;
+    }
     Subject subject(scene, width, height, options, hardware, compares);
     Turns turns(subject, runs, options, deadline);
     turns.warm(theirs);

@@ -40,6 +40,7 @@ class Run {
   void table2013Part(double budgetMs);
   void speed(double budgetMs);
   void peers(double budgetMs);
+  void note(const std::string& text);
   MeasureOptions ofScene(const std::string& name) const;
   std::string folder(const char* name) const { return options_.reportFolder + "/" + name; }
   int small(int side) const { return std::max(1, side / kSmallPart); }
@@ -62,21 +63,29 @@ void Run::makeFolders() const {
   }
 }
 
+void Run::note(const std::string& text) {
+  report_.notes.push_back(text);
+  fmt::print("{}\n", text);
+}
+
 // What a part leaves of its share, the later ones have.
 void Run::runParts() {
   double weights = 0;
   for (const Part& part : parts_) weights += part.weight;
   for (const Part& part : parts_) {
     progress_.phase(std::string(part.title));
-    const double budgetMs = std::max(0.0, deadline_.leftMs()) * part.weight / weights;
+    const double budgetMs = deadline_.leftMs() * part.weight / weights;
     weights -= part.weight;
+    if (budgetMs <= 0) {
+      note(fmt::format("{}: left out: no time is left.", part.title));
+      continue;
+    }
     // A part that this machine cannot run (no GL) is a line of the report, not its end.
     try {
       runPart(part.name, budgetMs);
     } catch (const Error& error) {
       if (error.code() != ExitCode::Machine) throw;
-      report_.notes.push_back(fmt::format("{}: not run: {}.", part.title, error.what()));
-      fmt::print("{}\n", report_.notes.back());
+      note(fmt::format("{}: not run: {}.", part.title, error.what()));
     }
     std::fflush(stdout);
   }
@@ -125,7 +134,9 @@ void Run::table2011Part(double budgetMs) {
   Options2011 options;
   options.width = small(size_[0]), options.height = small(size_[1]);
   options.budgetMs = budgetMs;
-  if (findMethod("f2b-kb-zf")) report_.table = table2011(options);
+  if (!findMethod("f2b-kb-zf")) failMachine("the gl back end is not in this build");
+  report_.table = table2011(options);
+  fmt::print("{}\n", toText(report_.table));
 }
 
 void Run::table2013Part(double budgetMs) { report_.table2013 = table2013(small(size_[0]), small(size_[1]), options_.k, 1, budgetMs); }

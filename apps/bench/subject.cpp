@@ -8,7 +8,7 @@
 namespace copeel::bench {
 namespace {
 
-constexpr double kQuickMs = 500;   // a first frame that took less is drawn again: it compiled shaders and grew buffers
+constexpr double kQuickMs = 2000;   // a first frame that took less is drawn again: it compiled shaders and grew buffers
 
 oit::RenderOptions renderOptions(const MeasureOptions& options, bool hardwareDepth, bool compares) {
   oit::RenderOptions render;

@@ -1,9 +1,10 @@
 #include "apps/bench/sweeps.h"
 
 #include <algorithm>
-#include <functional>
+#include <iterator>
+#include <map>
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "apps/bench/deadline.h"
 #include "core/methods/method.h"
@@ -23,6 +24,15 @@ constexpr int kLargestSide = 16384;
 constexpr std::size_t kCopies[] = {1, 2, 4, 8, 12};
 constexpr std::array<unsigned, 2> kStacks[] = {{2, 1}, {4, 1}, {4, 2}, {4, 4}, {8, 4}, {8, 8}};   // depths, coplanar fragments at each
 constexpr std::uint64_t kLimitPerPixel = 100;   // bytes: between what the least and the most of the stacks take
+
+// A line for each reason, with the methods that have it.
+void sayWhatIsMissing(const std::vector<Entry>& entries) {
+  std::map<std::string, std::vector<std::string>> missing;
+  for (const Entry& e : entries) {
+    if (!e.measured()) missing[e.failure + e.leftOut].push_back(e.method);
+  }
+  for (const auto& [why, methods] : missing) fmt::print("{}, {} x {}: {}: {}\n", entries[0].scene, entries[0].width, entries[0].height, fmt::join(methods, ", "), why);
+}
 
 class Sweeper {
  public:
@@ -55,9 +65,10 @@ class Sweeper {
 
 void Sweeper::add(Sweep& sweep, const BenchScene& scene, std::array<int, 2> size, double parameter, std::size_t stepsLeft) {
   measure_.budgetMs = std::max(0.0, deadline_.leftMs()) / double(stepsLeft);
-  for (Entry& entry : measureScene(scene, size[0], size[1], measure_)) {
+  std::vector<Entry> entries = measureScene(scene, size[0], size[1], measure_);
+  sayWhatIsMissing(entries);
+  for (Entry& entry : entries) {
     entry.parameter = parameter;
-    if (!entry.measured()) fmt::print("{} at {} x {}: {}: {}{}\n", entry.scene, entry.width, entry.height, entry.method, entry.failure, entry.leftOut);
     sweep.entries.push_back(std::move(entry));
   }
 }
@@ -109,12 +120,14 @@ void Sweeper::memory() {
   measure_.frames = 1;
   report_.memory.of = "generated rectangles, of 2 to 64 fragments in half of the pixels (2 to 8 depths of 1 to 8 coplanar ones)";
   report_.memoryLimit = kLimitPerPixel * static_cast<std::uint64_t>(size_[0]) * static_cast<std::uint64_t>(size_[1]);
+  const std::size_t count = measure_.methods.size();
+  std::vector<MethodRun> limited = measure_.methods;
+  for (MethodRun& run : limited) run.options.memoryBytes = report_.memoryLimit;
+  append(measure_.methods, limited);
   for (std::size_t i = 0; i < std::size(kStacks); ++i) {
-    const BenchScene scene = stack(kStacks[i][0], kStacks[i][1]);
-    for (const bool limited : {false, true}) {
-      for (MethodRun& run : measure_.methods) run.options.memoryBytes = limited ? report_.memoryLimit : 0;
-      add(limited ? report_.limitedMemory : report_.memory, scene, size_, 0, 2 * (std::size(kStacks) - i) - (limited ? 1 : 0));
-    }
+    Sweep both;
+    add(both, stack(kStacks[i][0], kStacks[i][1]), size_, 0, std::size(kStacks) - i);
+    for (std::size_t e = 0; e < both.entries.size(); ++e) (e < count ? report_.memory : report_.limitedMemory).entries.push_back(both.entries[e]);
   }
 }
 
