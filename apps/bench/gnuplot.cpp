@@ -41,23 +41,26 @@ std::string block(const std::string& name, const std::vector<Point>& points) {
 
 // Numbers at the points, names beside them in the margin, from the fastest on: labels at the points themselves would lie over each other.
 std::string numbered(std::vector<Point>& points) {
-  constexpr double kCloseX = 0.03, kCloseY = 0.12, kStep = 0.9;   // decades; characters
+  constexpr double kCloseX = 0.11, kCloseY = 0.12, kStep = 0.9;   // decades; characters
   std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
   std::string text;
   std::vector<std::pair<const Point*, int>> placed;   // and how high its number stands
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& p = points[i];
+    // The lowest place that no number beside it has.
+    const auto isTaken = [&](int level) {
+      return std::any_of(placed.begin(), placed.end(), [&](const auto& other) {
+        return other.second == level && std::log10(p.x / other.first->x) < kCloseX && std::abs(std::log10(p.y / other.first->y)) < kCloseY;
+      });
+    };
     int level = 0;
-    for (const auto& [other, height] : placed) {
-      const bool isClose = std::log10(p.x / other->x) < kCloseX && std::abs(std::log10(p.y / other->y)) < kCloseY;
-      if (isClose) level = std::max(level, height + 1);
-    }
+    while (isTaken(level)) ++level;
     placed.emplace_back(&p, level);
     text += fmt::format("set label \"{}\" at {},{} center offset 0,{} font ',9' tc rgb '{}' noenhanced\n", i + 1, p.x, p.y, 0.8 + kStep * level, p.robust ? kBlue : kOrange);
   }
   const double step = std::min(0.034, 0.98 / double(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i) {
-    text += fmt::format("set label \"{:>2}  {}\" at screen 0.745,{} left font ',10' tc rgb '{}' noenhanced\n", i + 1, points[i].method, 0.965 - step * double(i), points[i].robust ? kBlue : kOrange);
+    text += fmt::format("set label \"{:>2}  {}\" at screen 0.75,{} left font ',10' tc rgb '{}' noenhanced\n", i + 1, points[i].method, 0.965 - step * double(i), points[i].robust ? kBlue : kOrange);
   }
   return text;
 }
@@ -68,7 +71,7 @@ std::string numbered(std::vector<Point>& points) {
 std::string plotHead(const std::string& title, const std::string& x, const std::string& y) {
   return fmt::format(
       "set terminal svg size 1000,560 dynamic font 'sans-serif,13' background '#ffffff' noenhanced\n"
-      "set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\"\nset grid lc rgb '#e0e0e0'\nset border 3\nset tics nomirror\nset key outside right noenhanced\n",
+      "set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"{}\"\nset grid xtics ytics lt 1 lw 0.7 lc rgb '#d8d8d8'\nset border 3\nset tics nomirror\nset key outside right noenhanced\n",
       title, x, y);
 }
 
@@ -81,7 +84,7 @@ std::string speedAgainstError(const SceneRun& scene) {
   }
   if (all.empty()) return "";
   std::string text = plotHead("Speed against error: " + scene.name + " (" + scene.title + ")", "ms a frame (least)", "wrong pixels, % of those covered") + numbered(all);
-  text += fmt::format("set rmargin screen 0.735\nset key at graph 0.02,0.97 left top Left reverse\nset logscale xy\nset yrange [{}:1000]\n"
+  text += fmt::format("set rmargin at screen 0.70\nset key at graph 0.02,0.62 left top Left reverse\nset logscale xy\nset yrange [{}:1000]\n"
                       "set ytics ('0' {}, '0.01' 0.01, '0.1' 0.1, '1' 1, '10' 10, '100' 100)\n", kLeastShare * 0.6, kLeastShare);
   text += block("robust", robust) + block("approximate", approximate) + block("front", paretoFront(all));
   return text + fmt::format("plot $front using 1:2 with steps lw 2 lc rgb '#bbbbbb' title 'Pareto front', $robust using 1:2 with points pt 7 ps 0.8 lc rgb '{}' title 'robust', "
@@ -98,7 +101,7 @@ std::string lines(const std::string& head, const std::vector<Entry>& entries, co
   }
   std::erase_if(series, [](const auto& s) { return s.second.empty(); });
   if (series.empty()) return "";
-  std::string text = head, plot;
+  std::string text = head + "set autoscale xfix\n", plot;
   for (std::size_t i = 0; i < series.size(); ++i) {
     std::sort(series[i].second.begin(), series[i].second.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
     text += block(fmt::format("d{}", i), series[i].second);
@@ -157,7 +160,7 @@ std::string cullingPlot(const std::vector<Entry>& entries, const std::string& of
   }
   if (plain.empty()) return "";
   return plotHead("", "pass", "") + data + "unset title\nset key inside top right\n" +
-         fmt::format("set multiplot layout 2,{} title \"With and without +cull: {}\"\nset yrange [0:4.2]\nset ytics 1\n{}set yrange [0:*]\nset ytics autofreq\n{}unset multiplot\n", plain.size(), of, upper, lower);
+         fmt::format("set multiplot layout 2,{} title \"With and without +cull: {}\"\nset yrange [0:4.6]\nset ytics 1\n{}set yrange [0:*]\nset offsets 0,0,graph 0.4,0\nset ytics autofreq\n{}unset multiplot\n", plain.size(), of, upper, lower);
 }
 
 }  // namespace copeel::bench

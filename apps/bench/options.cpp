@@ -52,7 +52,7 @@ std::vector<MethodRun> chosenMethods(const Options& options) {
 std::vector<std::array<int, 2>> chosenSizes(const Options& options) {
   std::vector<std::array<int, 2>> sizes;
   for (const std::string& size : options.sizes) sizes.push_back(parseImageSize(size));
-  if (sizes.empty()) sizes = {{320, 240}};
+  if (sizes.empty()) sizes = {{256, 192}};
   return sizes;
 }
 

@@ -45,9 +45,9 @@ std::vector<Script> scriptsOf(const Report& report) {
                                      fmt::format("set arrow from graph 0, first {0} to graph 1, first {0} nohead dt 2 lc rgb '#888888'\nset label 'limit of the next plot' at graph 0.02, first {0} offset 0,0.6 tc rgb '#666666'\n", limit),
                                  report.memory.entries, fragmentsOf, mebibytesOf),
                  "As figure 11: " + report.memory.of + "."});
-  all.push_back({"memory-limited", lines(plotHead(fmt::format("Share of the fragments delivered within {:.0f} MiB", limit), "fragments, millions", "R_h") + "set logscale x\nset yrange [0:1.05]\n",
+  all.push_back({"memory-limited", lines(plotHead(fmt::format("Share of the fragments delivered within {:.3g} MiB", limit), "fragments, millions", "R_h") + "set logscale x\nset yrange [0:1.05]\n",
                                          report.limitedMemory.entries, fragmentsOf, rhOf),
-                 fmt::format("As figure 11: the same scenes, each method held to {:.0f} MiB. What a buffer cannot take is lost, and counted.", limit)});
+                 fmt::format("As figure 11: the same scenes, each method held to {:.3g} MiB. What a buffer cannot take is lost, and counted.", limit)});
   std::erase_if(all, [](const Script& script) { return script.text.empty(); });
   return all;
 }

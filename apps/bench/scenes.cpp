@@ -78,9 +78,10 @@ BenchScene threeInARow(const Mesh& mesh) {
   const MeshPointer shared = share(mesh);
   const Box box = boundingBox(mesh);
   const double length = box.max.x - box.min.x;
-  for (std::size_t i = 0; i < 3; ++i) scene.parts.push_back(partOf(shared, i, glm::translate(glm::dmat4(1.0), glm::dvec3(-kApart * length * double(i), 0, 0))));
-  // A little aside: seen straight along an axis, faces on edge have no pixels.
-  const glm::dvec3 center = box.center(), eye = center + glm::dvec3(kAway * length, 0.01 * length, 0.02 * length);
+  // A little off the axis: faces that the row runs along would lie in one plane with those of the next body, and reach through all three.
+  const glm::dvec3 along = length * glm::normalize(glm::dvec3(1, 0.017, 0.011));
+  for (std::size_t i = 0; i < 3; ++i) scene.parts.push_back(partOf(shared, i, glm::translate(glm::dmat4(1.0), -kApart * double(i) * along)));
+  const glm::dvec3 center = box.center(), eye = center + kAway * along;
   scene.camera.camera = {eye.x, eye.y, eye.z, center.x, center.y, center.z};
   return scene;
 }

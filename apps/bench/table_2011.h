@@ -24,7 +24,7 @@ struct Row2011 {
 };
 
 struct Options2011 {
-  int width = 320, height = 240, frames = 1;
+  int width = 256, height = 192, frames = 1;
   double budgetMs = std::numeric_limits<double>::infinity();
   std::string mesh;                                // a file; empty: the generated shells
   CameraOptions camera;                            // of the file
