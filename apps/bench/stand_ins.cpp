@@ -46,7 +46,7 @@ std::vector<BenchScene> StandIns::deep() const {
 
 BenchScene StandIns::dragons() const {
   if (areFiles()) return titled(threeInARow(read("dragon_11k.ply")), "three dragons (dragon_11k.ply) in a row along the view");
-  return titled(threeInARow(bumpySphere(kRowColumns, kRowRows)), "three generated bumpy spheres in a row along the view");
+  return titled(threeInARow(shells(2, kRowColumns, kRowRows)), "three generated balls, a shell in a shell each, in a row along the view");
 }
 
 BenchScene StandIns::bunny(std::size_t copyCount) const {
