@@ -52,7 +52,7 @@ Times timesOf(std::vector<double> ms) {
 
 csg::RenderOptions renderOptions(const std::string& method, int threads) {
   csg::RenderOptions options;
-  options.method = method;
+  options.method = findMethod(method);
   options.threads = threads;
   return options;
 }

@@ -1,5 +1,7 @@
 #include "apps/bench/method_runs.h"
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 
 namespace copeel::bench {
@@ -12,17 +14,27 @@ std::string_view backendOf(std::string_view backend, std::string_view name) { re
 
 std::vector<MethodRun> runsOf(std::string_view backend, std::string_view text, std::uint32_t k) {
   if (text == "auto" && backend == "cpu") failUsage("--methods auto is one of the gl back end, not of cpu");
-  MethodRun run{nullptr, {}, std::string(text)};
+  // What there is none of is refused; what one back end alone has, or takes these modifiers, runs there.
+  MethodRun run{nullptr, {}, {}};
   run.options.k = k;
-  const std::string name = parseMethod(text, run.options);
-  run.method = &chooseMethod(backendOf(backend, name), name);
-  return {run};
+  const MethodInfo& first = chooseMethod(backendOf(backend, text), text, run.options);
+  std::vector<MethodRun> runs;
+  for (const MethodInfo& method : methods()) {
+    if (method.name != first.name || (backend != "auto" && backend != method.backend)) continue;
+    if (&method != &first && text != method.name) continue;
+    run.method = &method;
+    const bool isShared = findMethod(method.name, "cpu") && findMethod(method.name, "gl");
+    run.label = isShared ? fmt::format("{} ({})", text, method.backend) : text;
+    runs.push_back(run);
+  }
+  return runs;
 }
 
 std::vector<MethodRun> allRuns(std::string_view backend, std::uint32_t k) {
   std::vector<MethodRun> all;
   for (const MethodInfo& method : methods()) {
-    if (backend == "auto" || backend == method.backend) append(all, runsOf(backend, method.name, k));
+    // A name that both back ends have comes once.
+    if (&method == findMethod(method.name, backend)) append(all, runsOf(backend, method.name, k));
   }
   return all;
 }
@@ -30,8 +42,7 @@ std::vector<MethodRun> allRuns(std::string_view backend, std::uint32_t k) {
 std::vector<MethodRun> runsThatAre(const std::vector<std::string>& names, std::string_view backend, std::uint32_t k) {
   std::vector<MethodRun> found;
   for (const std::string& text : names) {
-    const MethodInfo* method = findMethod(text.substr(0, text.find('+')));
-    if (method && (backend == "auto" || backend == method->backend)) append(found, runsOf(backend, text, k));
+    if (findMethod(text.substr(0, text.find('+')), backend)) append(found, runsOf(backend, text, k));
   }
   return found;
 }

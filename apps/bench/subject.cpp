@@ -51,7 +51,7 @@ double Subject::draw(oit::Frame& frame) {
 }
 
 double Subject::warm(const MethodRun& run, Entry& entry) {
-  renderer_.setMethod(std::string(run.method->name), run.options);
+  renderer_.setMethod(*run.method, run.options);
   oit::Frame frame;
   double ms = draw(frame);
   if (ms < kQuickMs) ms = std::min(ms, draw(frame));
@@ -71,6 +71,7 @@ void Subject::count(const MethodRun& run, Entry& entry) {
     entry.stats = counted;
     return;
   }
+  if (run.method->keeps == Keeps::KNearest) return;
   // The plain z-buffer counts nothing of itself: it keeps one fragment of each pixel.
   const bool all = run.method->robust;
   entry.stats.fragments = truth_.fragments;
@@ -90,7 +91,7 @@ void Subject::writePictures(Entry& entry, const oit::Frame& frame) const {
 }
 
 double Subject::time(const MethodRun& run, Entry& entry) {
-  renderer_.setMethod(std::string(run.method->name), run.options);
+  renderer_.setMethod(*run.method, run.options);
   oit::Frame frame;
   const double ms = draw(frame);
   takeCosts(entry.stats, renderer_.stats());

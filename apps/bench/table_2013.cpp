@@ -49,7 +49,7 @@ const std::vector<Column>& columns() {
 Row2013 rowOf(const MethodRun& run, const Entry& entry, const Shape& shape) {
   const MethodInfo& method = *run.method;
   Row2013 row;
-  row.method = entry.method;
+  row.method = method.name;
   row.passesFormula = method.passes, row.rhFormula = method.robustness, row.paperWords = method.paperWords;
   const double bytes = expectedBytes(method.name, shape, run.options.k), words = 4 * double(shape.pixels);
   row.passesExpected = expectedPasses(method.name, shape, run.options.k);

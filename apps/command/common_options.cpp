@@ -13,7 +13,6 @@
 #include "apps/command/outputs.h"
 #include "apps/command/parse_values.h"
 #include "core/error.h"
-#include "core/methods/method.h"
 
 namespace copeel {
 namespace {
@@ -83,9 +82,7 @@ void addCommonOptions(CLI::App& command, CommonOptions& options) {
   addFileOptions(command, options);
   addCameraOptions(command, options.camera);
   addWord(command, "--backend", options.backend, "cpu|gl|auto", "where to draw (auto)");
-  addParsed(command, "--method", "NAME", "how fragments are ordered: see copeel methods (auto)", [&options](const std::string& text) {
-    options.method = parseMethod(text, options.methodOptions);
-  });
+  addParsed(command, "--method", "NAME", "how fragments are ordered: see copeel methods (auto)", [&options](const std::string& text) { options.method = text; });
   addWhole(command, "--buffer-length", options.methodOptions.k, 1, kMostBufferLength, "fragments in the buffers of kb, k-plus, f2b-fab and their like (8)");
   addParsed(command, "--depth-source", "planes|hardware", "of the gl back end: exact for each plane, or the rasterizer's, as in the papers (planes)",
             [&options](const std::string& text) {

@@ -19,7 +19,7 @@ struct CommonOptions {
   CameraOptions camera;
   std::string output;                                 // -o
   std::string backend = "auto";
-  std::string method = "auto";
+  std::string method = "auto";                        // with modifiers: what chooseMethod() takes
   MethodOptions methodOptions;
   int threads = 0;                                    // 0: all cores
   std::uint64_t memoryBytes = 0;                      // 0: no limit

@@ -16,8 +16,8 @@ namespace {
 // Columns as wide as their widest entry.
 void printTable() {
   constexpr std::string_view MethodInfo::*kColumns[] = {&MethodInfo::name, &MethodInfo::backend, &MethodInfo::robustness, &MethodInfo::passes,
-                                                        &MethodInfo::memory, &MethodInfo::title, &MethodInfo::source};
-  constexpr std::string_view kHeads[] = {"method", "backend", "R_h", "passes", "memory", "what it is", "source"};
+                                                        &MethodInfo::memory, &MethodInfo::paperWords, &MethodInfo::title, &MethodInfo::source};
+  constexpr std::string_view kHeads[] = {"method", "backend", "R_h", "passes", "memory, bytes", "paper's, words a pixel", "what it is", "source"};
   for (std::size_t row = 0; row <= methods().size(); ++row) {
     std::string line;
     for (std::size_t column = 0; column < std::size(kColumns); ++column) {
@@ -39,6 +39,7 @@ void printJson() {
                     {"rh", method.robustness},
                     {"passes", method.passes},
                     {"memory", method.memory},
+                    {"paper_words", method.paperWords},
                     {"title", method.title},
                     {"source", method.source}});
   }
@@ -53,9 +54,9 @@ std::string cell(std::string_view text) {
 }
 
 void printMarkdown() {
-  fmt::print("| name | what it is | source | back end | passes | memory, bytes | R_h |\n|---|---|---|---|---|---|---|\n");
+  fmt::print("| name | what it is | source | back end | passes | memory, bytes | the paper's, words a pixel | R_h |\n|---|---|---|---|---|---|---|---|\n");
   for (const MethodInfo& m : methods()) {
-    fmt::print("| `{}` | {} | {} | {} | {} | {} | {} |\n", cell(m.name), cell(m.title), cell(m.source), cell(m.backend), cell(m.passes), cell(m.memory), cell(m.robustness));
+    fmt::print("| `{}` | {} | {} | {} | {} | {} | {} | {} |\n", cell(m.name), cell(m.title), cell(m.source), cell(m.backend), cell(m.passes), cell(m.memory), cell(m.paperWords), cell(m.robustness));
   }
 }
 

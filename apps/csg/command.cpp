@@ -15,7 +15,6 @@
 #include "apps/csg/scad_export.h"
 #include "core/error.h"
 #include "core/image/write_image.h"
-#include "core/methods/method.h"
 
 namespace copeel::csg {
 namespace {
@@ -85,7 +84,7 @@ void warnOfSharedIds(Model& model) {
 void run(CommandOptions options) {
   const InputKind kind = inputKind(options);
   const CommonOptions& common = options.common;
-  chooseMethod(common.backend, common.method);   // refused before anything is read
+  const RenderOptions render = renderOptions(options);   // what cannot be is refused before anything is read
   const std::vector<MeshArgument> files = filesOf(options, kind);
 
   Frame frame;
@@ -102,7 +101,7 @@ void run(CommandOptions options) {
     return model->warnings;
   };
   steps.draw = [&](Stats& stats) {
-    Renderer renderer(*model, renderOptions(options));
+    Renderer renderer(*model, render);
     frame = drawFrames(renderer, common, stats);
   };
   steps.finish = [&] { return scad ? scad->finish() : std::vector<std::string>(); };

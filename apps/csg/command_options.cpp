@@ -94,9 +94,8 @@ RenderOptions renderOptions(const CommandOptions& options) {
   render.coplanarTolerance = common.coplanarTolerance;
   render.threads = common.threads;
   render.samples = common.samples;
-  const MethodInfo& method = chooseMethod(common.backend, common.method);
-  render.method = method.name;
   render.methodOptions = common.methodOptions;
+  render.method = &chooseMethod(common.backend, common.method, render.methodOptions);
   render.wantDepth = !common.depthFile.empty();
   render.wantIds = !common.idsFile.empty();
   return render;

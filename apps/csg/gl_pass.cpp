@@ -141,6 +141,8 @@ void GlPass::draw(const View& view, const EyeWinding& eye, CsgFold::Alpha alpha,
   }
 }
 
+void GlPass::setOptions(const MethodOptions& options) { state_->options = options; }
+
 void GlPass::measure(const MethodInfo& method, Stats& stats) { gl::measure(state_->renderer, method, state_->options, stats); }
 
 }  // namespace copeel::csg

@@ -19,6 +19,7 @@ class GlPass {
   // `alpha` and `context` as CsgFold's. Throws Error{Machine}: the fold's state needs more memory than there is.
   void draw(const View& view, const EyeWinding& eye, CsgFold::Alpha alpha, const void* context, const MethodInfo& method,
             PixelSink& sink, Stats& stats);
+  void setOptions(const MethodOptions& options);   // the depth source stays
   // Counts what the method delivers of the last view (core/gl/measure.h).
   void measure(const MethodInfo& method, Stats& stats);
 

@@ -15,7 +15,6 @@
 #include "core/cpu/render_nearest.h"
 #include "core/cpu/render_tiles.h"
 #include "core/formats/read_mesh.h"
-#include "core/methods/method.h"
 #include "core/parallel.h"
 #include "core/scene/sample_offset.h"
 
@@ -99,8 +98,8 @@ void Renderer::State::prepare() {
   forest = buildGates(model, sectionLeaves, translucent, static_cast<std::uint32_t>(scene.objects().size()));
   look = std::make_unique<Look>(model, forest, options);
   findSmallClosedMeshes();
-  stats.method = options.method;
-  stats.backend = findMethod(options.method)->backend;
+  stats.method = options.method->name;
+  stats.backend = options.method->backend;
   stats.triangles = scene.primitiveCount();
   stats.leaves = model.leaves.size();
   stats.planeClasses = planes.classes().size();
@@ -142,12 +141,16 @@ EyeWinding Renderer::State::windingAtEye(const View& view, const std::vector<std
 
 void Renderer::State::drawTiles(const cpu::Frame& frame, PixelSink& sink) {
   const EyeWinding eye = windingAtEye(frame.view, frame.projection.reachesEye);
-    cpu::TileOptions tileOptions;
+  cpu::TileOptions tileOptions;
   tileOptions.decideAllExactly = options.decideAllExactly;
+  if (options.method->keeps == Keeps::KNearest) tileOptions.nearest = options.methodOptions.k;
   const cpu::TileCounts counts = cpu::renderTiles(
       frame, tileOptions, [&] { return CsgFold(forest, eye, knownClosed, options.inside, alphaOfLook, look.get(), sink); });
-  stats.fragments = stats.fragmentsCaptured = counts.fragments;
+  stats.fragments = counts.fragments;
+  stats.fragmentsCaptured = counts.captured;
+  stats.overflow = counts.fragments - counts.captured;
   stats.depthComplexityMax = counts.depthComplexityMax;
+  stats.capturedMax = std::min<std::uint64_t>(counts.depthComplexityMax, tileOptions.nearest);
   stats.coveredPixels = counts.coveredPixels;
   stats.coplanarPixels = counts.walk.coplanarPixels;
   stats.decidedExactly = counts.walk.decidedExactly;
@@ -156,15 +159,15 @@ void Renderer::State::drawTiles(const cpu::Frame& frame, PixelSink& sink) {
 void Renderer::State::drawPass(const View& view, PixelSink& sink) {
   look->setView(planes, view);
 #if COPEEL_GL
-  if (const MethodInfo& method = *findMethod(options.method); method.draw) {
+  if (options.method->draw) {
     if (!glPass) glPass = std::make_unique<GlPass>(scene, planes, forest, static_cast<std::uint32_t>(model.background.size()), options.inside, options.methodOptions);
     const EyeWinding eye = windingAtEye(view, cpu::project(scene, view).reachesEye);
-    return glPass->draw(view, eye, alphaOfLook, look.get(), method, sink, stats);
+    return glPass->draw(view, eye, alphaOfLook, look.get(), *options.method, sink, stats);
   }
 #endif
   ++stats.passes;
   const cpu::Frame frame(scene, planes, view);
-  if (options.method == "zbuffer") {
+  if (options.method->keeps == Keeps::Nearest) {
     cpu::renderNearest(frame, [&](int x, int y, const cpu::TileSlot& slot, const cpu::Tile& tile) {
       const Surface surface{slot.primitive, slot.planeClass, tile.objects[slot.object].object, 0};
       sink.pixel(x, y, {&surface, 1});
@@ -243,7 +246,6 @@ void Renderer::State::drawSamples(const View& view, Image<Rgb8>& color) {
 }
 
 Renderer::Renderer(const Model& model, const RenderOptions& options) : state_(std::make_unique<State>(model, options)) {
-  if (!findMethod(options.method)) failUsage("--method {}: there is no such method", options.method);
   state_->threads = std::make_unique<Threads>(options.threads);
   state_->threads->execute([&] { state_->prepare(); });
 }
@@ -253,9 +255,20 @@ Renderer::~Renderer() = default;
 const Box& Renderer::bounds() const { return state_->bounds; }
 const Stats& Renderer::stats() const { return state_->stats; }
 
+void Renderer::setMethod(const MethodInfo& method, const MethodOptions& options) {
+  state_->options.method = &method;
+  state_->options.methodOptions = options;
+  state_->stats.method = method.name;
+  state_->stats.backend = method.backend;
+  state_->stats.overflow = 0;
+#if COPEEL_GL
+  if (state_->glPass) state_->glPass->setOptions(options);
+#endif
+}
+
 void Renderer::measure() {
 #if COPEEL_GL
-  if (state_->glPass) state_->glPass->measure(*findMethod(state_->options.method), state_->stats);
+  if (state_->glPass) state_->glPass->measure(*state_->options.method, state_->stats);
 #endif
 }
 

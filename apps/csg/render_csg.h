@@ -12,7 +12,7 @@
 
 #include "apps/csg/csg_model.h"
 #include "core/image/image.h"
-#include "core/methods/draw.h"
+#include "core/methods/method.h"
 #include "core/metrics/stats.h"
 #include "core/scene/box.h"
 #include "core/scene/view.h"
@@ -43,7 +43,7 @@ struct RenderOptions {
   double coplanarTolerance = 0;    // model units; 0: from the scene (see core/coplanarity/plane_classes.h)
   int threads = 0;                 // 0: all cores
   int samples = 1;                 // anti-aliasing samples per pixel
-  std::string method = "tile";     // of either back end, see core/methods/method.h
+  const MethodInfo* method = findMethod("tile");   // of either back end
   MethodOptions methodOptions;
   bool wantDepth = false;
   bool wantIds = false;
@@ -63,6 +63,8 @@ class Renderer {
 
   // Bounds of all leaves of the solid, for --viewall: what openscad takes.
   const Box& bounds() const;
+  // Of the frames to come: scene, planes and what is on the device stay.
+  void setMethod(const MethodInfo& method, const MethodOptions& options);
   Frame draw(const View& view);
   const Stats& stats() const;      // of preparation and the last frame
   void measure();                  // counts the last frame's fragments, where drawing it did not (the gl back end)

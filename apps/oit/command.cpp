@@ -9,7 +9,6 @@
 #include "apps/command/make_picture.h"
 #include "apps/oit/read_parts.h"
 #include "core/image/write_image.h"
-#include "core/methods/method.h"
 
 namespace copeel::oit {
 namespace {
@@ -48,8 +47,8 @@ RenderOptions renderOptions(const CommandOptions& options) {
   render.coplanarTolerance = common.coplanarTolerance;
   render.threads = common.threads;
   render.samples = common.samples;
-  render.method = chooseMethod(common.backend, common.method).name;
   render.methodOptions = common.methodOptions;
+  render.method = &chooseMethod(common.backend, common.method, render.methodOptions);
   render.wantDepth = !common.depthFile.empty();
   render.wantIds = !common.idsFile.empty();
   render.wantLayers = !options.layersFile.empty();
@@ -59,7 +58,7 @@ RenderOptions renderOptions(const CommandOptions& options) {
 
 void run(const CommandOptions& options) {
   const CommonOptions& common = options.common;
-  chooseMethod(common.backend, common.method);   // refused before anything is read
+  const RenderOptions render = renderOptions(options);   // what cannot be is refused before anything is read
   std::vector<MeshArgument> files;
   PictureSteps steps;
   for (const std::string& input : options.inputs) {
@@ -80,7 +79,7 @@ void run(const CommandOptions& options) {
     return warnings;
   };
   steps.draw = [&](Stats& stats) {
-    Renderer renderer(std::move(parts), renderOptions(options));
+    Renderer renderer(std::move(parts), render);
     frame = drawFrames(renderer, common, stats);
   };
   makePicture(common, steps, std::move(outputs), frame.color);

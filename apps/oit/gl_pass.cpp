@@ -1,6 +1,7 @@
 // The tables to the device, a frame of the method, and its states to pixels by the same code as the cpu's.
 #include "apps/oit/gl_pass.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "core/gl/measure.h"
@@ -31,20 +32,22 @@ PixelResult resultOf(const std::uint32_t* words, const glm::vec3& background) {
 }  // namespace
 
 struct GlPass::State {
-  State(const Scene& s, const PlaneClasses& p, const MethodOptions& o)
-      : scene(s), planes(p), options(o), renderer(s, p, o.hardwareDepth ? gl::DepthSource::Hardware : gl::DepthSource::Planes) {}
+  State(const Scene& s, const PlaneClasses& p, const std::vector<std::uint8_t>& a, const MethodOptions& o)
+      : scene(s), planes(p), opaque(a), anyOpaque(std::find(a.begin(), a.end(), 1) != a.end()), options(o), renderer(s, p, o.hardwareDepth ? gl::DepthSource::Hardware : gl::DepthSource::Planes) {}
 
   void setFold(const fold::OverTables& tables, bool mayEnd);
 
   const Scene& scene;
   const PlaneClasses& planes;
+  std::vector<std::uint8_t> opaque;
+  bool anyOpaque;
   MethodOptions options;
   gl::Renderer renderer;
   gl::Buffer bases, ranges, shades;
 };
 
-GlPass::GlPass(const Scene& scene, const PlaneClasses& planes, const MethodOptions& options)
-    : state_(std::make_unique<State>(scene, planes, options)) {}
+GlPass::GlPass(const Scene& scene, const PlaneClasses& planes, const std::vector<std::uint8_t>& opaque, const MethodOptions& options)
+    : state_(std::make_unique<State>(scene, planes, opaque, options)) {}
 
 GlPass::~GlPass() = default;
 
@@ -57,6 +60,7 @@ void GlPass::State::setFold(const fold::OverTables& tables, bool mayEnd) {
   shades = gl::Buffer(tables.shades);
   gl::FoldSource fold;
   fold.defines = {{"FOLD", "core/gl/fold_over.glsl"}, {"FOLD_MAY_END", mayEnd ? "1" : "0"}};
+  if (mayEnd && anyOpaque) fold.defines.emplace_back("HIDE_BEHIND_OPAQUE", "1");
   fold.stateWords = kStateWords;
   fold.resultWords = kResultWords;
   fold.tables = {&bases, &ranges, &shades};
@@ -68,7 +72,9 @@ void GlPass::draw(const View& view, const fold::OverTables& tables, const glm::v
   State& state = *state_;
   state.renderer.setView(view);
   state.setFold(tables, mayEnd);
-  const gl::FrameCounts counts = state.renderer.draw(method.draw, state.options);
+  const gl::FrameCounts counts = state.renderer.draw(method.draw, state.options, [&](gl::Frame& frame) {
+    if (mayEnd && state.anyOpaque) frame.hideBehind(state.opaque);
+  });
   stats.passes += counts.passes;
   stats.overflow = counts.method.overflow;
   stats.iterations = counts.method.iterations;

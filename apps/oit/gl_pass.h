@@ -12,10 +12,11 @@ namespace copeel::oit {
 class GlPass {
  public:
   // Throws Error{Machine}: no GL. The arguments live longer.
-  GlPass(const Scene& scene, const PlaneClasses& planes, const MethodOptions& options);
+  // `opaque`: per object, whether all of its faces are.
+  GlPass(const Scene& scene, const PlaneClasses& planes, const std::vector<std::uint8_t>& opaque, const MethodOptions& options);
   ~GlPass();
 
-  // `tables`: with the shades of the view. `mayEnd`: a pixel has enough at an opaque fragment.
+  // `tables`: with the shades of the view. `mayEnd`: a pixel has enough at an opaque fragment; opaque objects are drawn first, and hide what is behind.
   void draw(const View& view, const fold::OverTables& tables, const glm::vec3& background, bool mayEnd, const MethodInfo& method,
             const Targets& targets, Stats& stats);
   void setOptions(const MethodOptions& options);   // of the frames to come; the source of depth stays

@@ -13,7 +13,6 @@
 #include "core/cpu/render_nearest.h"
 #include "core/cpu/render_tiles.h"
 #include "core/error.h"
-#include "core/methods/method.h"
 #include "core/parallel.h"
 #include "core/scene/sample_offset.h"
 
@@ -40,6 +39,7 @@ struct Renderer::State {
   PlaneClasses planes;
   fold::OverTables tables;
   std::vector<std::uint8_t> opaque;     // per part: some face is
+  std::vector<std::uint8_t> allOpaque;  // per part: every face is
   std::unique_ptr<Threads> threads;
 #if COPEEL_GL
   std::unique_ptr<GlPass> glPass;       // once a method of the gl back end draws
@@ -61,11 +61,12 @@ void Renderer::State::prepare(const std::vector<Part>& parts) {
     else tables.addObject(part.faceColors);
     const auto isOpaque = [](const glm::vec4& color) { return color.a >= 1; };
     opaque.push_back(part.faceColors.empty() ? isOpaque(part.color) : std::any_of(part.faceColors.begin(), part.faceColors.end(), isOpaque));
+    allOpaque.push_back(opaque.back() && std::all_of(part.faceColors.begin(), part.faceColors.end(), isOpaque));
   }
   scene = Scene(std::move(objects));
   planes = PlaneClasses(scene, options.coplanarTolerance);
-  stats.method = options.method;
-  stats.backend = findMethod(options.method)->backend;
+  stats.method = options.method->name;
+  stats.backend = options.method->backend;
   stats.triangles = scene.primitiveCount();
   stats.leaves = parts.size();
   stats.planeClasses = planes.classes().size();
@@ -75,16 +76,16 @@ void Renderer::State::prepare(const std::vector<Part>& parts) {
 void Renderer::State::drawPass(const View& view, const Targets& targets) {
   tables.shades = fold::shadesOf(planes, view, options.lit);
 #if COPEEL_GL
-  if (const MethodInfo& method = *findMethod(options.method); method.draw) {
-    if (!glPass) glPass = std::make_unique<GlPass>(scene, planes, options.methodOptions);
-    return glPass->draw(view, tables, background(), !targets.counts(), method, targets, stats);
+  if (options.method->draw) {
+    if (!glPass) glPass = std::make_unique<GlPass>(scene, planes, allOpaque, options.methodOptions);
+    return glPass->draw(view, tables, background(), !targets.counts(), *options.method, targets, stats);
   }
 #endif
   ++stats.passes;
   const cpu::Frame frame(scene, planes, view);
   const Canvas canvas(frame, targets);
   const auto makeFold = [&] { return OverFold(frame, tables, opaque, background(), canvas); };
-  if (options.method == "zbuffer") {
+  if (options.method->keeps == Keeps::Nearest) {
     const OverFold fold = makeFold();
     cpu::renderNearest(frame, [&](int x, int y, const cpu::TileSlot& slot, const cpu::Tile& tile) {
       canvas.put(x, y, fold.single(slot, tile), tile);
@@ -93,9 +94,13 @@ void Renderer::State::drawPass(const View& view, const Targets& targets) {
   }
   cpu::TileOptions tileOptions;
   tileOptions.decideAllExactly = options.decideAllExactly;
+  if (options.method->keeps == Keeps::KNearest) tileOptions.nearest = options.methodOptions.k;
   const cpu::TileCounts counts = cpu::renderTiles(frame, tileOptions, makeFold);
-  stats.fragments = stats.fragmentsCaptured = counts.fragments;
+  stats.fragments = counts.fragments;
+  stats.fragmentsCaptured = counts.captured;
+  stats.overflow = counts.fragments - counts.captured;
   stats.depthComplexityMax = counts.depthComplexityMax;
+  stats.capturedMax = std::min<std::uint64_t>(counts.depthComplexityMax, tileOptions.nearest);
   stats.coveredPixels = counts.coveredPixels;
   stats.coplanarPixels = counts.walk.coplanarPixels;
   stats.decidedExactly = counts.walk.decidedExactly;
@@ -126,7 +131,6 @@ void Renderer::State::drawSamples(const View& view, Frame& frame) {
 }
 
 Renderer::Renderer(std::vector<Part> parts, const RenderOptions& options) : state_(std::make_unique<State>()) {
-  if (!findMethod(options.method)) failUsage("--method {}: there is no such method", options.method);
   state_->options = options;
   state_->threads = std::make_unique<Threads>(options.threads);
   state_->threads->execute([&] { state_->prepare(parts); });
@@ -134,13 +138,11 @@ Renderer::Renderer(std::vector<Part> parts, const RenderOptions& options) : stat
 
 Renderer::~Renderer() = default;
 
-void Renderer::setMethod(const std::string& method, const MethodOptions& options) {
-  const MethodInfo* info = findMethod(method);
-  if (!info) failUsage("--method {}: there is no such method", method);
-  state_->options.method = method;
+void Renderer::setMethod(const MethodInfo& method, const MethodOptions& options) {
+  state_->options.method = &method;
   state_->options.methodOptions = options;
-  state_->stats.method = method;
-  state_->stats.backend = info->backend;
+  state_->stats.method = method.name;
+  state_->stats.backend = method.backend;
   state_->stats.overflow = state_->stats.methodBytes = 0;
 #if COPEEL_GL
   if (state_->glPass) state_->glPass->setOptions(options);
@@ -152,7 +154,7 @@ const Stats& Renderer::stats() const { return state_->stats; }
 
 void Renderer::measure() {
 #if COPEEL_GL
-  if (state_->glPass) state_->glPass->measure(*findMethod(state_->options.method), state_->stats);
+  if (state_->glPass) state_->glPass->measure(*state_->options.method, state_->stats);
 #endif
 }
 

@@ -12,7 +12,7 @@
 #include <glm/vec4.hpp>
 
 #include "core/image/image.h"
-#include "core/methods/draw.h"
+#include "core/methods/method.h"
 #include "core/metrics/stats.h"
 #include "core/scene/box.h"
 #include "core/scene/mesh.h"
@@ -34,7 +34,7 @@ struct RenderOptions {
   double coplanarTolerance = 0;    // model units; 0: from the scene (see core/coplanarity/plane_classes.h)
   int threads = 0;                 // 0: all cores
   int samples = 1;                 // anti-aliasing samples per pixel
-  std::string method = "tile";     // of either back end, see core/methods/method.h
+  const MethodInfo* method = findMethod("tile");   // of either back end
   MethodOptions methodOptions;
   bool wantFloats = false, wantDepth = false, wantIds = false, wantLayers = false, wantCoplanar = false;
   bool decideAllExactly = false;   // every order by the exact path; for tests, slow
@@ -57,7 +57,7 @@ class Renderer {
 
   const Box& bounds() const;
   // Of the frames to come: scene, planes and what is on the device stay.
-  void setMethod(const std::string& method, const MethodOptions& options);
+  void setMethod(const MethodInfo& method, const MethodOptions& options);
   Frame draw(const View& view);
   const Stats& stats() const;      // of preparation and the last frame
   void measure();                  // counts the last frame's fragments, where drawing it did not (the gl back end)

@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "core/cpu/kernels.h"
+#include "core/cpu/tile.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace copeel::cpu {
@@ -246,6 +247,76 @@ HWY_ATTR void CollectNearest(const TriangleSetup* triangles, std::size_t count, 
         for (int k = 0; k < kBlockSize; ++k) {
           const std::uint64_t key = mask >> k & 1 ? keys[k] : kEmptyKey;
           pixels[k] = key < pixels[k] ? key : pixels[k];
+        }
+      }
+      return true;
+    });
+  }
+}
+
+// Two planes whose keys do not tell their order.
+inline bool isOpen(std::uint64_t nearer, std::uint64_t farther, KeyFormat format, const KeyDoubt& doubt) {
+  if (farther - nearer >= doubt.reach) return false;
+  return doubt.slots[doubt.lastSlot - format.slotOf(nearer)].planeClass != doubt.slots[doubt.lastSlot - format.slotOf(farther)].planeClass;
+}
+
+// A key that is nearer than the last, or as good as that: to its place among those kept.
+inline void keepNearest(NearestGrid::Block& block, std::uint32_t k, int pixel, std::uint64_t key, KeyFormat format, const KeyDoubt& doubt) {
+  std::uint64_t* keys = block.kept.keys.get() + pixel;
+  std::uint64_t& last = keys[std::size_t{k - 1} * kBlockPixels];
+  std::uint32_t& count = block.kept.counts[pixel];
+  std::uint64_t lost = kEmptyKey;
+  if (key < last) {
+    lost = last;
+    std::uint32_t at = count < k ? count++ : k - 1;
+    for (; at > 0 && keys[std::size_t{at - 1} * kBlockPixels] > key; --at) keys[std::size_t{at} * kBlockPixels] = keys[std::size_t{at - 1} * kBlockPixels];
+    keys[std::size_t{at} * kBlockPixels] = key;
+  } else {
+    lost = key;
+  }
+  if (lost != kEmptyKey && isOpen(last, lost, format, doubt)) block.doubtful |= std::uint64_t{1} << pixel;
+}
+
+// Which of eight keys may have a place before `last`.
+HWY_INLINE HWY_ATTR std::uint32_t mayBeKept(const std::uint64_t* keys, const std::uint64_t* last, std::uint64_t reach) {
+  const F64 d;
+  const U64 u;
+  std::uint32_t mask = 0;
+  for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(d)) {
+    const auto limit = hn::Add(hn::LoadU(u, last + lane), hn::Set(u, reach));
+    std::uint8_t byte[8] = {};
+    hn::StoreMaskBits(d, hn::Lt(hn::BitCast(d, hn::Load(u, keys + lane)), hn::BitCast(d, limit)), byte);
+    mask |= (std::uint32_t{byte[0]} & ((1u << hn::Lanes(d)) - 1)) << lane;
+  }
+  return mask;
+}
+
+HWY_ATTR void CollectKNearest(const TriangleSetup* triangles, std::size_t count, KeyFormat format, const BlockRect& rect, const KeyDoubt& doubt,
+                              NearestGrid& grid) {
+  const std::uint32_t open = blocksOf(rect), k = grid.k();
+  const std::size_t lastLayer = std::size_t{k - 1} * kBlockPixels;
+  for (std::size_t i = 0; i < count; ++i) {
+    const TriangleSetup& t = triangles[i];
+    if (isSmall(t) && !(touchedBlocks(t) & ~open)) {
+      forEachSample(t, format, [&](int index, int pixel, std::uint64_t key) HWY_ATTR {
+        NearestGrid::Block& block = grid.block(index);
+        ++block.seen[pixel];
+        if (key < block.kept.keys[lastLayer + pixel] + doubt.reach) keepNearest(block, k, pixel, key, format, doubt);
+      });
+      continue;
+    }
+    forEachBlock(t, rect, 0, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
+      NearestGrid::Block& block = grid.block(index);
+      for (int row = __builtin_ctzll(covered) / kBlockSize; row < kBlockSize; ++row) {
+        std::uint32_t mask = covered >> (row * kBlockSize) & 0xFF;
+        if (!mask) continue;
+        alignas(64) std::uint64_t keys[kBlockSize];
+        rowKeys(t, x, y + row, format, keys);
+        for (int lane = 0; lane < kBlockSize; ++lane) block.seen[row * kBlockSize + lane] += mask >> lane & 1;
+        mask &= mayBeKept(keys, block.kept.keys.get() + lastLayer + row * kBlockSize, doubt.reach);
+        for (; mask; mask &= mask - 1) {
+          const int lane = __builtin_ctz(mask);
+          keepNearest(block, k, row * kBlockSize + lane, keys[lane], format, doubt);
         }
       }
       return true;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/cpu/tile.h"
 #include "core/error.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -19,6 +20,7 @@ namespace copeel::cpu {
 HWY_EXPORT(CollectFragments);
 HWY_EXPORT(SortBlock);
 HWY_EXPORT(CollectNearest);
+HWY_EXPORT(CollectKNearest);
 HWY_EXPORT(SimdName);
 
 bool collectFragments(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint32_t finished,
@@ -30,6 +32,10 @@ void sortBlock(FragmentGrid::Block& block) { HWY_DYNAMIC_DISPATCH(SortBlock)(blo
 
 void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint64_t* nearest) {
   HWY_DYNAMIC_DISPATCH(CollectNearest)(triangles.data(), triangles.size(), format, rect, nearest);
+}
+
+void collectKNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, const KeyDoubt& doubt, NearestGrid& grid) {
+  HWY_DYNAMIC_DISPATCH(CollectKNearest)(triangles.data(), triangles.size(), format, rect, doubt, grid);
 }
 
 const char* simdInUse() { return HWY_DYNAMIC_DISPATCH(SimdName)(); }
@@ -48,6 +54,21 @@ void FragmentGrid::clear() {
   for (Block& block : blocks_) {
     block.used = 0;
     std::fill(std::begin(block.counts), std::end(block.counts), 0u);
+  }
+}
+
+// Of the buffers the last layer alone is written: there "no fragment" is farther than every key, whatever the layers before it hold.
+void NearestGrid::clear() {
+  for (Block& block : blocks_) {
+    FragmentGrid::Block& kept = block.kept;
+    if (kept.capacity != k_) {
+      kept.keys = std::make_unique_for_overwrite<std::uint64_t[]>(std::size_t{k_} * kBlockPixels);
+      kept.capacity = kept.used = k_;
+    }
+    std::fill_n(kept.keys.get() + std::size_t{k_ - 1} * kBlockPixels, kBlockPixels, kEmptyKey);
+    std::fill(std::begin(kept.counts), std::end(kept.counts), 0u);
+    std::fill(std::begin(block.seen), std::end(block.seen), 0u);
+    block.doubtful = 0;
   }
 }
 

@@ -81,6 +81,42 @@ void sortBlock(FragmentGrid::Block& block);
 // The plain z-buffer: keeps the least key of each pixel, nearest[block][64], which the caller has filled with kEmptyKey.
 void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint64_t* nearest);
 
+// The K nearest fragments of the pixels of a tile: a buffer of K keys a pixel, ascending. What a full buffer has no place for is counted.
+//
+// Based on: Bavoil, Callahan, Lefohn, Comba, Silva. Multi-Fragment Effects on the GPU Using the k-Buffer. I3D 2007. Vasilakis, Fudos. k⁺-buffer:
+// Fragment Synchronized k-buffer. I3D 2014: a fragment farther than all that are kept turns back at once.
+// Changed: a tile is one thread's, so nothing has to be kept apart; rows of eight pixels are turned back together.
+// Keys hold slots counted from the other end (Tile::flipSlots): of coplanar fragments the later one is the nearer.
+class NearestGrid {
+ public:
+  struct Block {
+    FragmentGrid::Block kept;
+    std::uint32_t seen[kBlockPixels];   // fragments that came, kept or not
+    std::uint64_t doubtful;             // pixels in which keys leave open whether what was lost is nearer than what was kept
+  };
+
+  explicit NearestGrid(std::uint32_t k) : k_(k) {}
+
+  void clear();
+  std::uint32_t k() const { return k_; }
+  Block& block(int index) { return blocks_[index]; }
+
+ private:
+  std::uint32_t k_;
+  Block blocks_[kBlocksPerTile];
+};
+
+struct TileSlot;
+
+// What tells two keys' planes apart, and when they have to be.
+struct KeyDoubt {
+  std::uint64_t reach;       // keys less than this apart may be in either order, if their planes differ
+  std::uint64_t lastSlot;    // slot s is kept as lastSlot - s
+  const TileSlot* slots;
+};
+
+void collectKNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, const KeyDoubt& doubt, NearestGrid& grid);
+
 // Restricts the targets to those at most as wide as named: "best", "avx2", "sse4", "scalar". For tests; not to be called while drawing.
 void chooseSimd(const char* name);
 const char* simdInUse();   // Highway's name of the target that the kernels run on

@@ -18,7 +18,7 @@ namespace copeel::cpu {
 
 struct TileCounts {
   WalkCounts walk;
-  std::uint64_t fragments = 0;
+  std::uint64_t fragments = 0, captured = 0;
   std::uint64_t depthComplexityMax = 0;
   std::uint64_t coveredPixels = 0;
 };
@@ -26,6 +26,7 @@ struct TileCounts {
 struct TileOptions {
   std::size_t gridBudgetBytes = std::size_t{16} << 20;   // per thread; a single block may exceed it
   bool decideAllExactly = false;
+  std::uint32_t nearest = kAllFragments;                 // how many of a pixel the fold is given: 1 or more
 };
 
 // A tile is met in batches when it has many times the layers that a fold needs at least. Each batch repeats the fold of the
@@ -35,29 +36,34 @@ inline constexpr double kBatchesFrom = 8, kBatchGrowth = 4;
 // Layers of a tile from which on ordering them all costs more than finding out which need it.
 inline constexpr double kNarrowFrom = 8;
 
+// Samples of a triangle from which on ordering triangles by depth saves a k-buffer more than it costs.
+inline constexpr double kSamplesToOrder = 16;
+
 // Draws tiles with one fold. Owned by one thread.
 template <Fold F>
 class TileRenderer {
  public:
   TileRenderer(const Frame& frame, const TileOptions& options, F fold)
-      : frame_(frame), options_(options), fold_(std::move(fold)), grid_(options.gridBudgetBytes),
-        exact_(frame.scene, frame.planes, frame.depths, frame.view), walker_(fold_, exact_) {}
+      : frame_(frame), options_(options), fold_(std::move(fold)), grid_(options.gridBudgetBytes), nearest_(options.nearest),
+        exact_(frame.scene, frame.planes, frame.depths, frame.view), walker_(fold_, exact_, options.nearest) {}
   TileRenderer(const TileRenderer&) = delete;
 
   void draw(int index) {
     tile_.begin(frame_, index);
     if (!fold_.beginTile(tile_)) return;
+    if (keepsNearest()) keepAll();
     tile_.setUp(frame_);
     const double farthest = fold_.narrowTile(tile_);
     if (farthest == -std::numeric_limits<double>::infinity()) return;
+    std::fill(std::begin(done_), std::end(done_), 0);
+    if (keepsNearest()) return drawNearest();
     // Where a single fragment may be enough, or never any, or few lie upon each other, narrowing is not worth its time.
     const double least = fold_.leastFragments();
     narrows_ = least >= 2 && least < std::numeric_limits<double>::infinity() && tile_.layers() >= kNarrowFrom;
     finished_ = narrows_ ? emptyBlocks() : 0;
     if (finished_ == kAllBlocks) return;
     tile_.finish(farthest, options_.decideAllExactly);
-    std::fill(std::begin(done_), std::end(done_), 0);
-    drawRect(BlockRect{0, 0, (tile_.width + kBlockSize - 1) / kBlockSize, (tile_.height + kBlockSize - 1) / kBlockSize});
+    drawRect(wholeTile());
   }
   TileCounts counts() const {
     TileCounts counts = counts_;
@@ -77,11 +83,64 @@ class TileRenderer {
     return empty;
   }
 
+  BlockRect wholeTile() const {
+    return {0, 0, (tile_.width + kBlockSize - 1) / kBlockSize, (tile_.height + kBlockSize - 1) / kBlockSize};
+  }
+  bool keepsNearest() const { return options_.nearest != kAllFragments; }
+  void keepAll() {
+    for (TileObject& object : tile_.objects) object.keep = true;
+  }
+
+  // Which fragments are the nearest must not depend on what the fold has no use for in this tile: nothing is left out. Where depths are too
+  // uncertain for keys to choose, or the fold wants whole stacks, all fragments are ordered and the nearest given to the fold.
+  void drawNearest() {
+    keepAll();
+    tile_.finish(std::numeric_limits<double>::infinity(), options_.decideAllExactly);
+    finished_ = 0;
+    narrows_ = false;
+    const BlockRect rect = wholeTile();
+    if (tile_.coarse || fold_.needsWholeStack()) return drawRect(rect);
+    const KeyDoubt doubt{(2 * tile_.uncertainty + 2) << tile_.format.slotBits(), tile_.lastSlot(), tile_.slots.data()};
+    nearest_.clear();
+    // Met nearest first, most fragments turn back at once; of small triangles the order costs more than it saves.
+    const double layers = tile_.layers();
+    if (layers > 2.0 * options_.nearest && layers * tile_.width * tile_.height > kSamplesToOrder * static_cast<double>(tile_.setups.size())) tile_.orderByDepth();
+    tile_.flipSlots();
+    collectKNearest(tile_.setups, tile_.format, rect, doubt, nearest_);
+    tile_.flipSlots();
+    for (int by = rect.by0; by < rect.by1; ++by) {
+      for (int bx = rect.bx0; bx < rect.bx1; ++bx) foldNearest(bx, by);
+    }
+  }
+
+  void foldNearest(int bx, int by) {
+    NearestGrid::Block& nearest = nearest_.block(by * kBlocksPerSide + bx);
+    FragmentGrid::Block& kept = nearest.kept;
+    for (int p = 0; p < kBlockPixels && !nearest.doubtful; ++p) {
+      for (std::uint32_t i = 0; i < kept.counts[p]; ++i) kept.keys[std::size_t{i} * kBlockPixels + p] ^= tile_.lastSlot();
+      if (nearest.seen[p] > kept.counts[p] && endsOpen(kept, p)) nearest.doubtful = 1;
+    }
+    if (nearest.doubtful) return drawRect({bx, by, bx + 1, by + 1});
+    for (int p = 0; p < kBlockPixels; ++p) count(nearest.seen[p]);
+    foldBlock(kept, by * kBlocksPerSide + bx, kNoLimit);
+  }
+
+  // True where the last that was kept may in truth be nearer than one of another plane before it: then what was lost may be, too.
+  bool endsOpen(const FragmentGrid::Block& kept, int p) const {
+    const PixelStack stack{kept.keys.get() + p, kept.counts[p], kBlockPixels, tile_.format, tile_.slots.data()};
+    const std::uint32_t last = stack.count - 1, planeClass = tile_.slots[stack.slot(last)].planeClass;
+    const std::uint64_t depth = tile_.format.depthOf(stack.key(last));
+    for (std::uint32_t i = last; i-- > 0 && tile_.format.depthOf(stack.key(i)) + 2 * tile_.uncertainty >= depth;) {
+      if (tile_.slots[stack.slot(i)].planeClass != planeClass) return true;
+    }
+    return false;
+  }
+
   void drawRect(const BlockRect& rect) {
     grid_.clear();
     grid_.setBudget(rect.count() == 1 ? ~std::size_t{0} : options_.gridBudgetBytes);
     double layers = fold_.needsWholeStack() ? 0 : 2 + 2 * fold_.leastFragments();
-    const bool batches = layers > 0 && tile_.layers() > kBatchesFrom * layers;
+    const bool batches = layers > 0 && !keepsNearest() && tile_.layers() > kBatchesFrom * layers;
     if (batches && tile_.nearest.empty()) tile_.orderByDepth();
     narrows_ &= tile_.nearest.empty();   // windows want the order of slots
     const std::span<const TriangleSetup> all = tile_.setups;
@@ -96,11 +155,15 @@ class TileRenderer {
   }
 
   void countFragments(int b) {
-    for (std::uint32_t n : grid_.block(b).counts) {
-      counts_.fragments += n;
-      counts_.coveredPixels += n > 0;
-      counts_.depthComplexityMax = std::max<std::uint64_t>(counts_.depthComplexityMax, n);
-    }
+    for (std::uint32_t n : grid_.block(b).counts) count(n);
+  }
+
+  // The fragments of a pixel.
+  void count(std::uint32_t n) {
+    counts_.fragments += n;
+    counts_.captured += std::min(n, options_.nearest);
+    counts_.coveredPixels += n > 0;
+    counts_.depthComplexityMax = std::max<std::uint64_t>(counts_.depthComplexityMax, n);
   }
 
   void split(const BlockRect& rect) {
@@ -125,18 +188,25 @@ class TileRenderer {
       for (int bx = rect.bx0; bx < rect.bx1; ++bx) {
         const int b = by * kBlocksPerSide + bx;
         if (finished_ >> b & 1) continue;
-        if (foldBlock(b, bx * kBlockSize, by * kBlockSize, limit)) finished_ |= 1u << b;
+        // A pixel that no fragment is left to meet shows nothing, and its fold is not asked.
+        const bool isEmpty = grid_.block(b).used == 0 && limit == kNoLimit;
+        if (isEmpty || foldBlock(narrowed(b), b, limit)) finished_ |= 1u << b;
         else all = false;
       }
     }
     return all;
   }
 
-  // A pixel that no fragment is left to meet shows nothing, and its fold is not asked.
-  bool foldBlock(int b, int x, int y, std::uint64_t limit) {
-    if (grid_.block(b).used == 0 && limit == kNoLimit) return true;
-    if (narrows_) window_.take(fold_, tile_, grid_.block(b));
-    FragmentGrid::Block& block = narrows_ ? window_.block() : grid_.block(b);
+  // What of a block's fragments is to be ordered.
+  FragmentGrid::Block& narrowed(int b) {
+    FragmentGrid::Block& all = grid_.block(b);
+    if (!narrows_) return all;
+    window_.take(fold_, tile_, all);
+    return window_.block();
+  }
+
+  bool foldBlock(FragmentGrid::Block& block, int b, std::uint64_t limit) {
+    const int x = b % kBlocksPerSide * kBlockSize, y = b / kBlocksPerSide * kBlockSize;
     sortBlock(block);
     walker_.begin(tile_, limit);
     const int columns = std::min(kBlockSize, tile_.width - x), rows = std::min(kBlockSize, tile_.height - y);
@@ -164,6 +234,7 @@ class TileRenderer {
   F fold_;
   Tile tile_;
   FragmentGrid grid_;
+  NearestGrid nearest_;
   ExactOrder exact_;
   Walker<F> walker_;
   std::uint64_t done_[kBlocksPerTile] = {};   // pixels, by block
@@ -187,6 +258,7 @@ TileCounts renderTiles(const Frame& frame, const TileOptions& options, MakeFold 
   for (const auto& renderer : renderers) {
     const TileCounts counts = renderer.counts();
     total.fragments += counts.fragments;
+    total.captured += counts.captured;
     total.depthComplexityMax = std::max(total.depthComplexityMax, counts.depthComplexityMax);
     total.coveredPixels += counts.coveredPixels;
     total.walk.decidedExactly += counts.walk.decidedExactly;

@@ -16,6 +16,8 @@ struct WalkCounts {
   std::uint64_t coplanarPixels = 0;
 };
 
+inline constexpr std::uint32_t kAllFragments = ~std::uint32_t{0};
+
 enum class Walk { Finished, NeedsMore };
 
 // Orders a pixel whose depths are not all certain. Reused between pixels to keep its memory.
@@ -49,7 +51,8 @@ class ExactStack {
 template <Fold F>
 class Walker {
  public:
-  Walker(F& fold, const ExactOrder& exact) : fold_(fold), exact_(exact) {}
+  // Of a pixel with more than `most` fragments, the fold is given the nearest.
+  Walker(F& fold, const ExactOrder& exact, std::uint32_t most = kAllFragments) : fold_(fold), exact_(exact), most_(most) {}
 
   // `limit`: fragments at or beyond this depth may be missing yet.
   void begin(const Tile& tile, std::uint64_t limit) {
@@ -61,7 +64,7 @@ class Walker {
 
   // On Finished the fold holds the pixel's result. `x`, `y` are image coordinates.
   Walk walk(const PixelStack& stack, int x, int y) {
-    const bool exactly = coarse_ && hasCoarse(stack);
+    const bool exactly = stack.count > most_ || (coarse_ && hasCoarse(stack));
     const bool repeated = !exactly && remembers_ && repeats(stack);
     if (!repeated) remembers_ = false;
     const Walk outcome = repeated ? Walk::Finished : exactly ? walkExactly(stack, x, y) : walkCertain(stack, x, y);
@@ -129,9 +132,14 @@ class Walker {
     const std::vector<ExactStack::Entry>& entries = exactStack_.entries();
     fold_.beginPixel(stack);
     coplanar_ = enough_ = false;
-    for (std::size_t i = 0; i < entries.size() && !enough_;) {
-      const std::size_t begin = i;
-      for (; i < entries.size() && entries[i].group == entries[begin].group; ++i) fold_.fragment(entries[i].slot);
+    std::size_t left = most_;
+    for (std::size_t i = 0; i < entries.size() && left > 0 && !enough_;) {
+      std::size_t begin = i;
+      while (i < entries.size() && entries[i].group == entries[begin].group) ++i;
+      // Of coplanar fragments the later ones lie in front.
+      begin = std::max(begin, i - std::min(i, left));
+      for (std::size_t k = begin; k < i; ++k) fold_.fragment(entries[k].slot);
+      left -= i - begin;
       coplanar_ |= i - begin > 1;
       enough_ = fold_.closeGroup();
     }
@@ -145,6 +153,7 @@ class Walker {
 
   F& fold_;
   const ExactOrder& exact_;
+  std::uint32_t most_;
   ExactStack exactStack_;
   WalkCounts counts_;
   bool coarse_ = false;

@@ -14,6 +14,10 @@ layout(std430, binding = COPEEL_BUFFER_PRIMITIVES) readonly buffer Primitives { 
 layout(binding = COPEEL_TEXTURE_PLANES) uniform usamplerBuffer planes;
 layout(binding = COPEEL_TEXTURE_PRIMITIVES) uniform usamplerBuffer primitiveTexels;
 
+#ifdef HIDE_BEHIND_OPAQUE
+layout(std430, binding = COPEEL_BUFFER_OPAQUE) coherent buffer Opaque { uint opaqueKeys[]; };   // of each pixel, the nearest opaque fragment's
+#endif
+
 flat in uint firstPrimitive;
 
 uint fragmentPrimitive() { return firstPrimitive + uint(gl_PrimitiveID); }
@@ -39,11 +43,29 @@ uint keyOfPlane(uint planeClass) {
   return COPEEL_KEY_LEAST + (depthSign > 0 ? shiftedDifference(bits, depthNearest) : shiftedDifference(depthNearest, bits));
 }
 
-// To be asked before anything is written: a plane that holds the eye is seen as a line, and what clipping leaves of its triangles is no fragment.
-uint fragmentKey() {
+// A plane that holds the eye is seen as a line, and what clipping leaves of its triangles is no fragment.
+uint fragmentClass() {
   uint planeClass = texelFetch(primitiveTexels, int(fragmentPrimitive())).r;
   uvec2 range = texelFetch(planes, int(planeClass) * 2 + 1).zw;
   if (uintBitsToFloat(range.x) > uintBitsToFloat(range.y)) discard;
-  if (depthHardware != 0) return clamp(floatBitsToUint(gl_FragCoord.z), COPEEL_KEY_LEAST, COPEEL_KEY_NONE - 1u);
-  return keyOfPlane(planeClass);
+  return planeClass;
+}
+
+// To be asked before anything is written. For folds that say so, what is behind something opaque is no fragment either (Frame::hideBehind).
+uint fragmentKey() {
+  uint planeClass = fragmentClass();
+  uint key = depthHardware != 0 ? clamp(floatBitsToUint(gl_FragCoord.z), COPEEL_KEY_LEAST, COPEEL_KEY_NONE - 1u) : keyOfPlane(planeClass);
+#ifdef HIDE_BEHIND_OPAQUE
+  if (key > opaqueKeys[pixelIndex()]) discard;
+#endif
+  return key;
+}
+
+// For passes that count fragments: what is none, as fragmentKey() says, at less cost where no key is needed to know it.
+void discardNoFragment() {
+#ifdef HIDE_BEHIND_OPAQUE
+  fragmentKey();
+#else
+  fragmentClass();
+#endif
 }

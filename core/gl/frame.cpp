@@ -303,6 +303,19 @@ void Frame::drawObjects(const Program& program, std::uint32_t begin, std::uint32
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
+void Frame::hideBehind(const std::vector<std::uint8_t>& opaque) {
+  if (opaque_.bytes() < pixelCount() * 4) opaque_ = Buffer(pixelCount() * 4);
+  opaque_.clear(COPEEL_KEY_NONE);
+  opaque_.bindStorage(COPEEL_BUFFER_OPAQUE);
+  const Program& program = geometryProgram("core/gl/opaque.glsl", "OPAQUE");
+  beginPass();
+  const auto count = static_cast<std::uint32_t>(opaque.size());
+  for (std::uint32_t begin = 0, end = 0; begin < count; begin = end + 1) {
+    for (end = begin; end < count && opaque[end];) ++end;
+    if (begin < end) drawObjects(program, begin, end);
+  }
+}
+
 void Frame::cullObjects(const Program& box) {
   if (!culling_) culling_ = std::make_unique<Culling>(objectBoxes(scene_.scene(), scene_.planes(), view_, depths_, depthSource_ == DepthSource::Hardware));
   if (!culls_) culling_->restart();

@@ -84,6 +84,9 @@ class Frame {
   void drawGeometry(const Program& program) { beginPass(); drawObjects(program, 0, static_cast<std::uint32_t>(scene_.scene().objects().size())); }
   void drawObjects(const Program& program, std::uint32_t begin, std::uint32_t end);
   void drawPixels(const Program& program);
+  // Before a method's passes, for a fold with the define HIDE_BEHIND_OPAQUE: finds the nearest fragment of the marked objects in each pixel; passes then leave out
+  // what lies behind it. One pass over those objects, 4 bytes a pixel.
+  void hideBehind(const std::vector<std::uint8_t>& opaque);
 
   // From now on, until the frame's end, passes leave out objects whose boxes (culling.h) pass no sample of `box`, a pixel program; again when
   // pixels have less left.
@@ -121,7 +124,7 @@ class Frame {
   std::vector<DepthPlane> depths_;
   FoldSource fold_;
   int width_ = 0, height_ = 0;
-  Buffer clip_, frameBlock_, planes_, states_, results_;
+  Buffer clip_, frameBlock_, planes_, states_, results_, opaque_;
   struct Named {
     Buffer buffer;
     std::size_t asked = 0;         // bytes

@@ -6,7 +6,7 @@
 
 namespace copeel::gl {
 
-// Fills fragments, fragmentsCaptured, depthComplexityMax, coveredPixels and coplanarPixels of the view that is set. Takes the place of the renderer's fold.
+// Fills fragments, fragmentsCaptured, depthComplexityMax, coveredPixels, coplanarPixels and uncertain of the view that is set. Takes the place of the renderer's fold.
 void measure(Renderer& renderer, const MethodInfo& method, const MethodOptions& options, Stats& stats);
 
 }  // namespace copeel::gl

@@ -15,10 +15,10 @@ uniform uint capacity;
 #if defined(PASS_GATHER)
 
 void main() {
-  uint pixel = pixelIndex();
+  uint key = fragmentKey(), pixel = pixelIndex();
   uint slot = atomicAdd(counts[pixel], 1u);
   if (slot < capacity) {
-    fragments[pixel * capacity + slot] = uvec2(fragmentKey(), fragmentId());
+    fragments[pixel * capacity + slot] = uvec2(key, fragmentId());
   } else {
     atomicAdd(overflow, 1u);
     atomicMax(wanted, slot + 1u);

@@ -1,13 +1,16 @@
 // The registry of peeling methods: what each is called, what it promises, where it runs.
 #pragma once
 
-#include <string>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
 #include "core/methods/draw.h"
 
 namespace copeel {
+
+// What a method of the cpu back end keeps of a pixel: those of a kind share their code.
+enum class Keeps : std::uint8_t { All, Nearest, KNearest };
 
 struct MethodInfo {
   std::string_view name;        // on the command line
@@ -21,16 +24,17 @@ struct MethodInfo {
   bool robust;                  // delivers every fragment
   DrawMethod draw = nullptr;    // of the gl back end
   std::string_view modifiers = {};   // that it takes: "+cull", "+occupancy", both or none
+  Keeps keeps = Keeps::All;     // of the cpu back end
 };
 
 const std::vector<MethodInfo>& methods();
-const MethodInfo* findMethod(std::string_view name);   // null when there is none of that name
 
-// The name less its modifiers (NAME+occupancy+cull), which are set in `options`. Throws Error{Usage}: no such method, or not one that takes the modifier.
-std::string parseMethod(std::string_view text, MethodOptions& options);
+// Of the back end (cpu, gl; auto: the cpu's where both have one of that name); null when there is none.
+const MethodInfo* findMethod(std::string_view name, std::string_view backend = "auto");
 
-// The method for --backend cpu|gl|auto and --method NAME|auto: by its name, else the back end's all-round one; "auto" is the cpu unless the method
-// is the gl back end's. Throws Error{Usage} when the two do not go together, Error{Machine} when this build has no gl back end.
-const MethodInfo& chooseMethod(std::string_view backend, std::string_view name);
+// The method for --backend cpu|gl|auto and --method NAME|auto, the name with its modifiers (NAME+occupancy+cull), which are set in `options`. `auto` is the
+// back end's all-round one; of two back ends that have the name, auto takes the cpu's unless only the other's takes the modifiers. Throws Error{Usage} when
+// there is no such method or it does not take a modifier, Error{Machine} when this build has no gl back end.
+const MethodInfo& chooseMethod(std::string_view backend, std::string_view text, MethodOptions& options);
 
 }  // namespace copeel

@@ -3,6 +3,7 @@
 // Based on: Liu, Wei, Xu, Wu. Multi-Layer Depth Peeling via Fragment Sort. Technical report 2006, CAD/Graphics 2009.
 // Passes: 2 ⌈D/K⌉ + 1 where there are no hazards (each batch is drawn once more to see that; a last one finds nothing). `repeats` counts the others.
 // Bytes per pixel: 8 K + 4 (the paper's table, as k-buffer: 2K + 2 words). K is at most 128.
+// Opaque geometry comes first, as in the paper: for all methods alike, by the fold that says so (Frame::hideBehind).
 // Loses: all but one fragment of each group (the depth equality test, without which repeats would store a fragment twice), R_h = D / N.
 #include <algorithm>
 

@@ -17,7 +17,10 @@ uint hashOf(uint pixel) { return pixel % uint(SB_GROUPS); }   // H(P), 2012
 
 #if defined(PASS_COUNT)
 
-void main() { atomicAdd(counts[pixelIndex()], 1u); }
+void main() {
+  discardNoFragment();
+  atomicAdd(counts[pixelIndex()], 1u);
+}
 
 #elif defined(PASS_PLACE)
 
@@ -41,9 +44,9 @@ void main() {
 #elif defined(PASS_FILL)
 
 void main() {
-  uint pixel = pixelIndex();
+  uint key = fragmentKey(), pixel = pixelIndex();
   uint place = groupFirst[hashOf(pixel)] + atomicAdd(places[pixel], 1u);
-  if (place < capacity) fragments[place] = uvec2(fragmentKey(), fragmentId());
+  if (place < capacity) fragments[place] = uvec2(key, fragmentId());
 }
 
 #else

@@ -27,6 +27,7 @@ std::string toJson(const Stats& stats) {
   json["passes"] = stats.passes;
   json["memory_bytes"] = stats.memoryBytes;
   json["decided_exactly"] = stats.decidedExactly;
+  json["uncertain"] = stats.uncertain;
   json["ms"] = {{"load", stats.loadMs},
                 {"prepare", stats.prepareMs},
                 {"frame_median", stats.frameMedianMs},

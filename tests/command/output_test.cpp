@@ -68,7 +68,7 @@ TEST_F(Output, StatsHoldTheContract) {
   ASSERT_EQ(run({"csg", "part.csg", "--stats", "s.json", "--imgsize", "120,90", "--frames", "2"}).exitCode, 0);
   const auto stats = nlohmann::json::parse(contentOf(folder_ / "s.json"));
   for (const char* key : {"method", "backend", "width", "height", "triangles", "leaves", "plane_classes", "fragments", "fragments_captured", "rh",
-                          "depth_complexity_max", "coplanar_pixels", "cp", "overflow", "passes", "memory_bytes", "decided_exactly", "ms"}) {
+                          "depth_complexity_max", "coplanar_pixels", "cp", "overflow", "passes", "memory_bytes", "decided_exactly", "uncertain", "ms"}) {
     EXPECT_TRUE(stats.contains(key)) << key;
   }
   for (const char* key : {"load", "prepare", "frame_median", "frame_min", "total"}) EXPECT_TRUE(stats["ms"].contains(key)) << key;

@@ -107,7 +107,7 @@ TEST_F(Usage, MethodsAsTableAndJson) {
   const auto list = nlohmann::json::parse(run({"methods", "--json"}).standardOutput);
   ASSERT_TRUE(list.is_array());
   for (const auto& method : list) {
-    for (const char* key : {"name", "backend", "robust", "rh", "passes", "memory", "title", "source"}) EXPECT_TRUE(method.contains(key)) << key;
+    for (const char* key : {"name", "backend", "robust", "rh", "passes", "memory", "paper_words", "title", "source"}) EXPECT_TRUE(method.contains(key)) << key;
   }
 }
 

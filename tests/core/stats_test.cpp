@@ -19,7 +19,7 @@ TEST(Stats, holdsEveryNameOfTheDesign) {
   const nlohmann::json json = nlohmann::json::parse(toJson(stats));
   for (const char* name : {"method", "backend", "width", "height", "triangles", "leaves", "plane_classes", "fragments",
                            "fragments_captured", "rh", "depth_complexity_max", "coplanar_pixels", "cp", "overflow",
-                           "passes", "memory_bytes", "decided_exactly", "ms"}) {
+                           "passes", "memory_bytes", "decided_exactly", "uncertain", "ms"}) {
     EXPECT_TRUE(json.contains(name)) << name;
   }
   for (const char* name : {"load", "prepare", "frame_median", "frame_min", "total"})

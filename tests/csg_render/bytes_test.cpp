@@ -108,5 +108,25 @@ TEST(Bytes, planesThatCrossExactlyAtASampleAreDecidedExactly) {
   EXPECT_EQ(bytesOf(draw(modelOf(tree), view).frame), bytesOf(draw(modelOf(tree), view, options).frame));
 }
 
+// A buffer as long as the deepest pixel loses nothing, wherever the eye is and whatever the tree; a short one says what it lost.
+TEST(Bytes, longKBuffersGiveTheTilesPicture) {
+  for (const Case& c : cases()) {
+    const Drawing tile = draw(c.model, c.view);
+    for (const char* method : {"kb", "k-plus"}) {
+      csg::RenderOptions options;
+      options.method = findMethod(method, "cpu");
+      options.methodOptions.k = 256;
+      const Drawing whole = draw(c.model, c.view, options);
+      EXPECT_TRUE(bytesOf(whole.frame) == bytesOf(tile.frame)) << c.name;
+      EXPECT_EQ(whole.stats.overflow, 0u) << c.name;
+      options.methodOptions.k = 1;
+      const Drawing one = draw(c.model, c.view, options);
+      EXPECT_EQ(one.stats.fragments, whole.stats.fragments) << c.name;
+      EXPECT_EQ(one.stats.fragmentsCaptured, one.stats.coveredPixels) << c.name;
+      EXPECT_EQ(one.stats.fragmentsCaptured + one.stats.overflow, one.stats.fragments) << c.name;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace copeel::test

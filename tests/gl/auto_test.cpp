@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/error.h"
 #include "core/methods/method.h"
 #include "tests/support/gl_scenes.h"
 #include "tests/support/gl_stacks.h"
@@ -55,9 +56,29 @@ TEST(GlAuto, survivesAWrongLook) {
 }
 
 TEST(GlAuto, isWhatTheBackEndsTake) {
-  EXPECT_EQ(chooseMethod("gl", "auto").name, "auto");
-  EXPECT_EQ(chooseMethod("cpu", "auto").name, "tile");
-  EXPECT_EQ(chooseMethod("auto", "auto").name, "tile");
+  MethodOptions options;
+  EXPECT_EQ(chooseMethod("gl", "auto", options).name, "auto");
+  EXPECT_EQ(chooseMethod("cpu", "auto", options).name, "tile");
+  EXPECT_EQ(chooseMethod("auto", "auto", options).name, "tile");
+}
+
+// A name that both back ends have is the cpu's, unless what it is to do is the other's.
+TEST(GlChoice, ofANameOfBothBackEnds) {
+  for (const char* name : {"kb", "k-plus"}) {
+    MethodOptions options;
+    EXPECT_EQ(&chooseMethod("auto", name, options), findMethod(name, "cpu"));
+    EXPECT_EQ(&chooseMethod("cpu", name, options), findMethod(name, "cpu"));
+    EXPECT_EQ(&chooseMethod("gl", name, options), findMethod(name, "gl"));
+    EXPECT_NE(findMethod(name, "cpu"), findMethod(name, "gl"));
+    EXPECT_FALSE(options.occupancy);
+    EXPECT_EQ(&chooseMethod("auto", name + std::string("+occupancy"), options), findMethod(name, "gl"));
+    EXPECT_TRUE(options.occupancy);
+    EXPECT_THROW(chooseMethod("cpu", name + std::string("+occupancy"), options), Error);
+  }
+  MethodOptions options;
+  EXPECT_EQ(chooseMethod("auto", "f2b+cull", options).backend, "gl");
+  EXPECT_TRUE(options.cull);
+  for (const char* none : {"", "f2c", "f2b+", "f2b+cul", "f2b+cull+occupancy", "auto+cull"}) EXPECT_THROW(chooseMethod("auto", none, options), Error) << none;
 }
 
 }  // namespace

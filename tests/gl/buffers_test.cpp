@@ -13,24 +13,6 @@ const char* const kRobust[] = {"fab", "sb", "ll", "bun-ll"};
 
 using Pixel = std::vector<Group>;
 
-std::size_t fragmentsOf(const Pixel& pixel) {
-  std::size_t count = 0;
-  for (const Group& group : pixel) count += group.size();
-  return count;
-}
-
-// The K nearest fragments: within a group, which stacks hold by primitive, later ones lie in front.
-Pixel nearest(const Pixel& pixel, std::size_t k) {
-  Pixel result;
-  for (const Group& group : pixel) {
-    const std::size_t count = std::min(k, group.size());
-    if (count == 0) break;
-    result.emplace_back(group.end() - static_cast<std::ptrdiff_t>(count), group.end());
-    k -= count;
-  }
-  return result;
-}
-
 // A renderer with what `ll` delivers.
 class Rendered {
  public:
@@ -39,10 +21,11 @@ class Rendered {
     for (const Pixel& pixel : all_.stacks.pixels) deepest_ = std::max(deepest_, fragmentsOf(pixel));
   }
   GlStacks stacksOf(const char* method, const MethodOptions& options = {}) {
-    return glStacksOf(renderer_, view_, findMethod(method)->draw, options, capacity_);
+    return glStacksOf(renderer_, view_, findMethod(method, "gl")->draw, options, capacity_);
   }
   const std::vector<Pixel>& pixels() const { return all_.stacks.pixels; }
   std::uint64_t fragments() const { return all_.delivered; }
+  const gl::FrameCounts& first() const { return all_.counts; }   // of `ll`, before its memory had grown
   std::size_t deepest() const { return deepest_; }        // fragments in a pixel
   std::size_t pixelCount() const { return all_.stacks.pixels.size(); }
 
@@ -81,10 +64,14 @@ TEST(GlBuffers, passesAndBytesEqualTheirFormulas) {
     EXPECT_EQ(sb.passes, 2u) << scene.name;
     const gl::FrameCounts ll = rendered.stacksOf("ll").counts;
     EXPECT_EQ(ll.methodBytes, pixels * 4 + 12 * std::max<std::size_t>(4 * pixels, rendered.fragments()) + 68) << scene.name;
+    EXPECT_EQ(rendered.first().passes, rendered.fragments() > 4 * pixels ? 2u : 1u) << scene.name;
+    EXPECT_EQ(ll.passes, 1u) << scene.name;
     // The fullest bucket is not known here; all of them are as large, and hold everything.
     const gl::FrameCounts bunLl = rendered.stacksOf("bun-ll").counts;
     const std::size_t places5 = (bunLl.methodBytes - pixels * 20 - 324) / 60, least = (4 * pixels + 4) / 5;
     EXPECT_EQ(bunLl.methodBytes, pixels * 20 + 60 * places5 + 324) << scene.name;
+    EXPECT_EQ(bunLl.passes, 1 + bunLl.method.repeats) << scene.name;
+    EXPECT_LE(bunLl.passes, 2u) << scene.name;
     EXPECT_GE(places5, std::max(least, (rendered.fragments() + 4) / 5)) << scene.name;
     EXPECT_LE(places5, std::max<std::size_t>(least, rendered.fragments())) << scene.name;
   }
@@ -99,7 +86,7 @@ std::vector<std::uint32_t> countsOf(const Scene& scene, const View& view, const 
   fold.defines = {{"FOLD", "core/fold/count.glsl"}};
   fold.stateWords = 4, fold.resultWords = 3;
   renderer.setFold(fold);
-  renderer.draw(findMethod(method)->draw, {});
+  renderer.draw(findMethod(method, "gl")->draw, {});
   return renderer.result();
 }
 
@@ -142,7 +129,7 @@ TEST(GlBuffers, tenThousandFragmentsInAPixel) {
   const PlaneClasses planes(scene, 0);
   gl::Renderer renderer(scene, planes);
   for (const char* method : kRobust) {
-    const GlStacks stacks = glStacksOf(renderer, above(3, 2, 0.1), findMethod(method)->draw, {}, 10'000);
+    const GlStacks stacks = glStacksOf(renderer, above(3, 2, 0.1), findMethod(method, "gl")->draw, {}, 10'000);
     for (const Pixel& pixel : stacks.stacks.pixels) {
       ASSERT_EQ(pixel.size(), 5000u) << method;
       for (std::size_t i = 0; i < pixel.size(); ++i) {

@@ -17,25 +17,70 @@ std::vector<oit::Part> bodies() {
           {cube, {200, 200, 30, 0.25}, {}, rotation({0, 0, 90})}, {cube, {90, 90, 90, 0}, {}, glm::dmat4(1.0)}, {post, {250, 250, 250, 1}, {}, glm::dmat4(1.0)}};
 }
 
-oit::Frame drawnWith(std::string_view method, double offset = 0) {
+oit::Frame drawnWith(std::string_view method, double offset = 0, std::string_view backend = "auto") {
   oit::RenderOptions options;
-  options.method = method;
+  options.method = findMethod(method, backend);
+  options.methodOptions.k = 3;
   options.wantDepth = options.wantIds = options.wantLayers = options.wantCoplanar = true;
   View view = lookAt({3, 2, 4}, {0, 0, 0}, 64, 48, 0.02);
   view.offset = {offset, offset};
   return oit::Renderer(bodies(), options).draw(view);
 }
 
+oit::RenderOptions listsWith(bool counts) {
+  oit::RenderOptions options;
+  options.method = findMethod("ll");
+  options.wantDepth = options.wantIds = true;
+  options.wantLayers = options.wantCoplanar = counts;
+  return options;
+}
+
+// Where nothing counts layers, the opaque body is drawn first and hides what is behind it: the same picture.
 TEST(GlOit, robustMethodsGiveTheSameBytes) {
+  const View view = lookAt({3, 2, 4}, {0, 0, 0}, 64, 48, 0.02);
   const oit::Frame lists = drawnWith("ll");
+  for (const bool counts : {true, false}) {
+    oit::Renderer renderer(bodies(), listsWith(counts));
+    for (const MethodInfo& method : methods()) {
+      if (!method.draw || !method.robust) continue;
+      for (const bool cull : {false, true}) {
+        if (cull && method.modifiers.find("+cull") == std::string_view::npos) continue;
+        SCOPED_TRACE(std::string(method.name) + (cull ? "+cull" : "") + (counts ? "" : ", opaque first"));
+        renderer.setMethod(method, {.cull = cull});
+        const oit::Frame frame = renderer.draw(view);
+        EXPECT_EQ(frame.color.pixels, lists.color.pixels);
+        EXPECT_EQ(frame.depth.pixels, lists.depth.pixels);
+        EXPECT_EQ(frame.ids.pixels, lists.ids.pixels);
+        if (!counts) continue;
+        EXPECT_EQ(frame.layers.pixels, lists.layers.pixels);
+        EXPECT_EQ(frame.coplanar.pixels, lists.coplanar.pixels);
+      }
+    }
+  }
+}
+
+// Six sheets of glass, an opaque one, and six more behind it: a pass for the opaque one, and none for what it hides. Glass in its plane is not hidden.
+TEST(GlOit, whatIsBehindOpaqueOnesIsNotPeeled) {
+  std::vector<oit::Part> parts;
+  for (int i = 0; i < 13; ++i) parts.push_back({share(quad({-1, -1, -0.1 * i}, {1, -1, -0.1 * i}, {1, 1, -0.1 * i}, {-1, 1, -0.1 * i})), {20 * i, 99, 200 - 9 * i, i == 6 ? 1 : 0.25}, {}, glm::dmat4(1.0)});
+  parts.push_back({parts[6].mesh, {255, 0, 0, 0.5}, {}, glm::dmat4(1.0)});
+  const View view = lookAt({0.1, 0.2, 5}, {0, 0, 0}, 16, 12, 0.02);
+  oit::Renderer counting(parts, listsWith(true)), hiding(parts, listsWith(false));
+  const oit::Frame whole = counting.draw(view);
   for (const MethodInfo& method : methods()) {
-    if (!method.draw || !method.robust) continue;
-    const oit::Frame frame = drawnWith(method.name);
-    EXPECT_EQ(frame.color.pixels, lists.color.pixels) << method.name;
-    EXPECT_EQ(frame.depth.pixels, lists.depth.pixels) << method.name;
-    EXPECT_EQ(frame.ids.pixels, lists.ids.pixels) << method.name;
-    EXPECT_EQ(frame.layers.pixels, lists.layers.pixels) << method.name;
-    EXPECT_EQ(frame.coplanar.pixels, lists.coplanar.pixels) << method.name;
+    if (!method.draw) continue;
+    SCOPED_TRACE(method.name);
+    hiding.setMethod(method, {.k = 8});
+    const oit::Frame frame = hiding.draw(view);
+    if (method.robust || method.name == "k-plus" || method.name == "f2b-kb-zf") {
+      EXPECT_EQ(frame.color.pixels, whole.color.pixels);
+    }
+    if (method.name == "f2b") {
+      EXPECT_EQ(hiding.stats().passes, 1u + 7 + 1);
+      counting.setMethod(method, {});
+      counting.draw(view);
+      EXPECT_EQ(counting.stats().passes, 13u + 1);
+    }
   }
 }
 
@@ -51,6 +96,23 @@ TEST(GlOit, equalsTheTileMethodOffEdges) {
   }
   EXPECT_EQ(wrong, 0);
   EXPECT_GT(compared, 300);
+}
+
+// One name on both back ends is one picture, off edges.
+TEST(GlOit, kBuffersOfBothBackEndsKeepTheSame) {
+  const oit::Frame cpu = drawnWith("k-plus", 0, "cpu"), before = drawnWith("k-plus", -1.0 / 128, "cpu"), after = drawnWith("k-plus", 1.0 / 128, "cpu");
+  const oit::Frame gl = drawnWith("k-plus", 0, "gl"), whole = drawnWith("tile");
+  int compared = 0, wrong = 0, shortened = 0;
+  for (std::size_t i = 0; i < cpu.color.pixels.size(); ++i) {
+    shortened += cpu.layers.pixels[i] < whole.layers.pixels[i];
+    if (before.layers.pixels[i] != after.layers.pixels[i] || !(before.color.pixels[i] == after.color.pixels[i])) continue;
+    compared += cpu.layers.pixels[i] > 0;
+    wrong += !(cpu.color.pixels[i] == gl.color.pixels[i]) || cpu.layers.pixels[i] != gl.layers.pixels[i] || cpu.coplanar.pixels[i] != gl.coplanar.pixels[i] ||
+             cpu.ids.pixels[i] != gl.ids.pixels[i];
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(compared, 300);
+  EXPECT_GT(shortened, 100);   // K = 3 is too short for many pixels
 }
 
 }  // namespace

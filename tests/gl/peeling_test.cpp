@@ -18,7 +18,7 @@ constexpr std::uint64_t kManyLayers = 100;        // scenes with so many take hu
 constexpr std::uint64_t kPassThatFindsNothing = 1;   // the papers count passes that find fragments
 
 DrawMethod drawOf(std::string_view name) {
-  const MethodInfo* method = findMethod(name);
+  const MethodInfo* method = findMethod(name, "gl");
   COPEEL_CHECK(method && method->draw, "method {}", name);
   return method->draw;
 }

@@ -114,10 +114,62 @@ TEST(Oit, samplesAreTheMeanOfPicturesAndDepthIsTheCentres) {
 
 TEST(Oit, theZBufferKeepsTheNearestAlone) {
   oit::RenderOptions options = unlit();
-  options.method = "zbuffer";
+  options.method = findMethod("zbuffer");
   const oit::Frame frame = drawParts({part(square(2), kRed), part(square(1), kGreen)}, kAbove, options).frame;
   EXPECT_EQ(frame.color.at(10, 10), (Rgb8{100, 0, 0}));
   EXPECT_EQ(frame.ids.at(10, 10), 1);
+}
+
+oit::RenderOptions kBuffer(std::string_view method, std::uint32_t k) {
+  oit::RenderOptions options = unlit();
+  options.method = findMethod(method, "cpu");
+  options.methodOptions.k = k;
+  return options;
+}
+
+TEST(Oit, kBuffersBlendTheKNearest) {
+  const std::vector<oit::Part> parts{part(square(1), kRed), part(square(1), kGreen), part(square(2), kNothing), part(square(0), kBlue)};
+  const Rgb8 expected[] = {{0, 0, 0}, {0, 100, 0}, {50, 100, 0}, {50, 100, 25}, {50, 100, 25}};
+  for (const char* method : {"kb", "k-plus"}) {
+    for (std::uint32_t k = 1; k <= 5; ++k) {
+      const OitDrawing drawing = drawParts(parts, kAbove, kBuffer(method, k));
+      EXPECT_EQ(drawing.frame.color.at(10, 10), expected[k - 1]) << method << ", K " << k;
+      EXPECT_EQ(drawing.frame.layers.at(10, 10), std::min(k, 4u)) << method << ", K " << k;
+    }
+  }
+}
+
+TEST(Oit, kBuffersCountWhatTheyLose) {
+  std::vector<oit::Part> parts;
+  for (int i = 0; i < 4; ++i) parts.push_back(part(torusKnot(0.8, 200, 8), glm::vec4(60 * i, 200 - 50 * i, 90, i == 3 ? 1 : 0.3), rotation({30.0 * (i / 2), 0, 0})));
+  oit::RenderOptions whole = unlit();
+  const std::vector<oit::Part> seeThrough(parts.begin(), parts.end() - 1);
+  const OitDrawing tile = drawParts(seeThrough, kOblique, whole);
+  ASSERT_GT(tile.stats.depthComplexityMax, 12u);
+  for (const std::uint32_t k : {1u, 2u, 8u, 32u, 1024u}) {
+    std::uint64_t captured = 0;
+    for (const std::uint16_t n : tile.frame.layers.pixels) captured += std::min<std::uint64_t>(k, n);
+    const OitDrawing one = drawParts(seeThrough, kOblique, kBuffer("k-plus", k));
+    EXPECT_EQ(one.stats.fragments, tile.stats.fragments);
+    EXPECT_EQ(one.stats.fragmentsCaptured, captured);
+    EXPECT_EQ(one.stats.overflow, tile.stats.fragments - captured);
+    for (const char* method : {"kb", "k-plus"}) {
+      for (const int threads : {1, 2}) {
+        oit::RenderOptions options = kBuffer(method, k);
+        options.threads = threads;
+        const OitDrawing again = drawParts(seeThrough, kOblique, options);
+        EXPECT_TRUE(sameBytes(again.frame, one.frame)) << method << ", " << threads << " threads";
+        EXPECT_EQ(again.stats.overflow, one.stats.overflow);
+      }
+    }
+    if (k >= tile.stats.depthComplexityMax) {
+      EXPECT_TRUE(sameBytes(one.frame, tile.frame));
+    }
+    // Behind what is opaque nothing is drawn, and all is counted.
+    const OitDrawing opaque = drawParts(parts, kOblique, kBuffer("k-plus", k));
+    EXPECT_GT(opaque.stats.fragments, tile.stats.fragments);
+    EXPECT_EQ(opaque.stats.fragmentsCaptured + opaque.stats.overflow, opaque.stats.fragments);
+  }
 }
 
 // More fragments in one pixel than 16 bits count, in one plane: none is lost, and the pictures that count saturate.

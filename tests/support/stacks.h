@@ -17,6 +17,24 @@ struct Crossing {
 };
 using Group = std::vector<Crossing>;
 
+inline std::size_t fragmentsOf(const std::vector<Group>& pixel) {
+  std::size_t count = 0;
+  for (const Group& group : pixel) count += group.size();
+  return count;
+}
+
+// The K nearest fragments: within a group, which stacks hold by primitive, later ones lie in front.
+inline std::vector<Group> nearest(const std::vector<Group>& pixel, std::size_t k) {
+  std::vector<Group> result;
+  for (const Group& group : pixel) {
+    const std::size_t count = std::min(k, group.size());
+    if (count == 0) break;
+    result.emplace_back(group.end() - static_cast<std::ptrdiff_t>(count), group.end());
+    k -= count;
+  }
+  return result;
+}
+
 struct Stacks {
   int width = 0, height = 0;
   std::vector<std::vector<Group>> pixels;
@@ -25,9 +43,7 @@ struct Stacks {
   const std::vector<Group>& at(int x, int y) const { return pixels[static_cast<std::size_t>(y) * width + x]; }
   std::size_t fragments() const {
     std::size_t count = 0;
-    for (const auto& pixel : pixels) {
-      for (const Group& group : pixel) count += group.size();
-    }
+    for (const auto& pixel : pixels) count += fragmentsOf(pixel);
     return count;
   }
 };
