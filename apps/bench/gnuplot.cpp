@@ -134,7 +134,7 @@ std::string bars(const std::string& head, const std::vector<Entry>& entries) {
   for (std::size_t i = 0; i < methods.size(); ++i) {
     plot += fmt::format("{}$bars using {}:xtic(1) lc rgb '{}' title \"{}\"", i ? ", " : "plot ", i + 2, kColors[i % std::size(kColors)], methods[i]);
   }
-  return head + "set style data histogram\nset style fill solid\nset boxwidth 0.9\nset logscale y\nunset logscale x\n" + data + "EOD\n" + plot + "\n";
+  return head + fmt::format("set xrange [-0.6:{}]\nset xtics font ',11'\n", double(scenes.size()) - 0.4) + "set style data histogram\nset style fill solid\nset boxwidth 0.9\nset logscale y\nunset logscale x\n" + data + "EOD\n" + plot + "\n";
 }
 
 std::string cullingPlot(const std::vector<Entry>& entries, const std::string& of) {

@@ -50,7 +50,7 @@ void Turns::warmOne(std::size_t i) {
   Entry& entry = *entries_[i];
   const double left = deadline_.leftMs() - owedMs_, expected = expectedMs(i);
   if (kFramesToWarm * expected > left || left <= 0) {
-    entry.leftOut = expected > 0 && left > 0 ? fmt::format("left out: {:.0f} passes would take {:.1f} s a frame, and {:.1f} s are left", passes_[i], expected / 1e3, left / 1e3)
+    entry.leftOut = expected > 0 && left > 0 ? fmt::format("left out: {:.0f} pass{} would take {:.1f} s a frame, and {:.1f} s are left", passes_[i], passes_[i] == 1 ? "" : "es", expected / 1e3, left / 1e3)
                                              : kNoTime;
     return;
   }
