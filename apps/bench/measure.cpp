@@ -1,112 +1,139 @@
 #include "apps/bench/measure.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cctype>
+#include <memory>
+#include <numeric>
 
 #include <fmt/format.h>
 
+#include "apps/bench/deadline.h"
+#include "apps/bench/subject.h"
 #include "core/error.h"
-#include "core/image/write_image.h"
 
 namespace copeel::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+constexpr const char* kNoTime = "left out: no time is left";
+constexpr double kEnoughMs = 1500;         // of one method in one scene: then its timed frames end
+constexpr double kFramesToWarm = 4;        // two frames, the counts, which are another one, and one that is timed
+constexpr double kPassesThatTell = 3;      // a method of so many tells the time of a pass; of fewer, other work takes as long
 
-constexpr double kEnoughMs = 1500;   // of one method in one scene: then its timed frames end
-
-oit::RenderOptions renderOptions(const MeasureOptions& options) {
-  oit::RenderOptions render;
-  render.threads = options.threads;
-  render.wantFloats = render.wantDepth = true;
-  return render;
-}
-
-// The two renderers of a scene: one for all methods, which share what is on the device, and one for the reference.
-class Subject {
+// The methods of one source of depth on one scene.
+class Turns {
  public:
-  Subject(const BenchScene& scene, int width, int height, const MeasureOptions& options)
-      : options_(options), scene_(scene), renderer_(scene.parts, renderOptions(options)) {
-    oit::RenderOptions exact = renderOptions(options);
-    exact.decideAllExactly = true;
-    oit::Renderer tile(scene.parts, exact);
-    view_ = viewOf(scene, tile.bounds(), width, height);
-    reference_ = tile.draw(view_);
-    truth_ = tile.stats();
-    onEdge_ = edgePixels(scene.parts, view_);
-  }
+  Turns(Subject& subject, const std::vector<MethodRun>& runs, const MeasureOptions& options, const Deadline& deadline)
+      : subject_(subject), runs_(runs), options_(options), deadline_(deadline) {}
 
-  void warm(const MethodRun& run, Entry& entry);   // the first frame: error, counts, pictures
-  double time(const MethodRun& run);
+  void warm(std::vector<Entry*> entries);
+  void time();
 
  private:
-  void writePictures(Entry& entry, const oit::Frame& frame) const;
+  double expectedMs(std::size_t i) const;
+  void warmOne(std::size_t i);
 
+  Subject& subject_;
+  const std::vector<MethodRun>& runs_;
   const MeasureOptions& options_;
-  const BenchScene& scene_;
-  oit::Renderer renderer_;
-  View view_;
-  oit::Frame reference_;
-  Stats truth_;
-  std::vector<std::uint8_t> onEdge_;
+  const Deadline& deadline_;
+  std::vector<Entry*> entries_;
+  std::vector<double> passes_, leastMs_;   // expected passes; of frames, least so far
+  double owedMs_ = 0;                      // one timed frame of each method so far
+  double tellingMs_ = 0, tellingPasses_ = 0;   // of the methods of many passes so far
+  double passMs_ = 0;                          // one of theirs; before there is any, by the methods of few; 0: none yet
 };
 
-void Subject::warm(const MethodRun& run, Entry& entry) {
-  renderer_.setMethod(*run.method, run.options);
-  renderer_.draw(view_);   // compiles shaders, grows buffers
-  const oit::Frame frame = renderer_.draw(view_);
-  entry.error = compare(frame, reference_, onEdge_);
-  entry.stats = renderer_.stats();
-  if (entry.backend == "gl") {
-    renderer_.measure();
-    const Stats counted = renderer_.stats();
-    entry.stats.fragments = counted.fragments;
-    entry.stats.fragmentsCaptured = counted.fragmentsCaptured;
-    entry.stats.capturedMax = counted.capturedMax;
-    entry.stats.depthComplexityMax = counted.depthComplexityMax;
-  } else if (run.method->keeps != Keeps::KNearest) {
-    // The plain z-buffer counts nothing of itself: it keeps one fragment of each pixel.
-    const bool all = entry.robust;
-    entry.stats.fragments = truth_.fragments;
-    entry.stats.fragmentsCaptured = all ? entry.stats.fragments : truth_.coveredPixels;
-    entry.stats.depthComplexityMax = truth_.depthComplexityMax;
-    entry.stats.capturedMax = all ? truth_.depthComplexityMax : 1;
+double Turns::expectedMs(std::size_t i) const { return runs_[i].method->backend == "gl" ? passes_[i] * passMs_ : 0; }
+
+// A method that this machine cannot run (no GL, no memory) is a line of the report, not its end.
+void Turns::warmOne(std::size_t i) {
+  Entry& entry = *entries_[i];
+  const double left = deadline_.leftMs() - owedMs_, expected = expectedMs(i);
+  if (kFramesToWarm * expected > left || left <= 0) {
+    entry.leftOut = expected > 0 && left > 0 ? fmt::format("left out: {:.0f} pass{} would take {:.1f} s a frame, and {:.1f} s are left", passes_[i], passes_[i] == 1 ? "" : "es", expected / 1e3, left / 1e3)
+                                             : kNoTime;
+    return;
   }
-  if (!options_.pictureFolder.empty()) writePictures(entry, frame);
+  try {
+    leastMs_[i] = subject_.warm(runs_[i], entry);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::Machine) throw;
+    entry.failure = error.what();
+    return;
+  }
+  owedMs_ += leastMs_[i];
+  if (entry.backend != "gl") return;
+  if (double(entry.stats.passes) >= kPassesThatTell) {
+    tellingMs_ += leastMs_[i];
+    tellingPasses_ += double(entry.stats.passes);
+    passMs_ = tellingMs_ / tellingPasses_;
+  } else if (tellingPasses_ == 0) {
+    passMs_ = leastMs_[i] / kPassesThatTell;
+  }
 }
 
-void Subject::writePictures(Entry& entry, const oit::Frame& frame) const {
-  const std::string stem = fileNameOf(entry.scene + "-" + entry.method);
-  entry.picture = stem + ".png";
-  entry.errorMap = stem + "-error.png";
-  writePng(options_.pictureFolder + "/" + entry.picture, frame.color);
-  writePng(options_.pictureFolder + "/" + entry.errorMap, errorMap(frame, reference_, onEdge_));
+void Turns::warm(std::vector<Entry*> entries) {
+  entries_ = std::move(entries);
+  leastMs_.resize(runs_.size());
+  for (const MethodRun& run : runs_) passes_.push_back(expectedPasses(run.method->name, subject_.shape(), run.options.k));
+  std::vector<std::size_t> order(runs_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return passes_[a] < passes_[b]; });
+  for (const std::size_t i : order) warmOne(i);
 }
 
-double Subject::time(const MethodRun& run) {
-  renderer_.setMethod(*run.method, run.options);
-  const auto start = Clock::now();
-  renderer_.draw(view_);
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+void Turns::time() {
+  std::vector<std::vector<double>> times(runs_.size());
+  for (int frame = 0; frame < options_.frames; ++frame) {
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      if (!entries_[i]->measured() || std::accumulate(times[i].begin(), times[i].end(), 0.0) > kEnoughMs) continue;
+      // The first turn was paid for when the method was let in.
+      if (frame > 0 && leastMs_[i] > deadline_.leftMs()) continue;
+      times[i].push_back(subject_.time(runs_[i], *entries_[i]));
+    }
+  }
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    std::vector<double>& ms = times[i];
+    if (ms.empty()) continue;
+    std::sort(ms.begin(), ms.end());
+    entries_[i]->frames = static_cast<int>(ms.size());
+    entries_[i]->minMs = ms.front();
+    entries_[i]->medianMs = (ms[ms.size() / 2] + ms[(ms.size() - 1) / 2]) / 2;
+  }
+}
+
+// One after the other the two sources of depth, each with all its methods in turns.
+std::vector<Entry> run(const BenchScene& scene, int width, int height, const MeasureOptions& options, bool compares) {
+  const Deadline deadline(options.budgetMs);
+  std::vector<Entry> entries;
+  for (const MethodRun& run : options.methods) {
+    Entry entry;
+    entry.scene = scene.name, entry.method = run.label, entry.backend = run.method->backend, entry.robust = run.method->robust;
+    entry.width = width, entry.height = height;
+    entries.push_back(std::move(entry));
+  }
+  for (const bool hardware : {false, true}) {
+    std::vector<MethodRun> runs;
+    std::vector<Entry*> theirs;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      if (options.methods[i].options.hardwareDepth != hardware) continue;
+      runs.push_back(options.methods[i]);
+      theirs.push_back(&entries[i]);
+    }
+    if (runs.empty()) continue;
+    if (deadline.leftMs() <= 0) {
+      for (Entry* entry : theirs) entry->leftOut = kNoTime;
+      continue;
+    }
+    Subject subject(scene, width, height, options, hardware, compares);
+    Turns turns(subject, runs, options, deadline);
+    turns.warm(theirs);
+    turns.time();
+  }
+  return entries;
 }
 
 }  // namespace
-
-std::vector<MethodRun> runsOf(std::string_view backend, std::string_view text, std::uint32_t k) {
-  std::vector<MethodRun> runs;
-  // What there is none of is refused; what one back end alone has, or takes these modifiers, runs there.
-  MethodRun run{nullptr, {.k = k}, {}};
-  const MethodInfo& first = chooseMethod(backend, text, run.options);
-  for (const MethodInfo& method : methods()) {
-    if (method.name != first.name || (backend != "auto" && backend != method.backend)) continue;
-    if (&method != &first && text != method.name) continue;
-    run.method = &method;
-    const bool isShared = findMethod(method.name, "cpu") && findMethod(method.name, "gl");
-    run.label = isShared ? fmt::format("{} ({})", text, method.backend) : text;
-    runs.push_back(run);
-  }
-  return runs;
-}
 
 std::string fileNameOf(const std::string& method) {
   std::string name = method;
@@ -116,40 +143,7 @@ std::string fileNameOf(const std::string& method) {
   return name;
 }
 
-std::vector<Entry> measureScene(const BenchScene& scene, int width, int height, const MeasureOptions& options) {
-  Subject subject(scene, width, height, options);
-  std::vector<Entry> entries;
-  for (const MethodRun& run : options.methods) {
-    Entry entry;
-    entry.scene = scene.name, entry.method = run.label, entry.backend = run.method->backend, entry.robust = run.method->robust;
-    entry.width = width, entry.height = height;
-    // A method that this machine cannot run (no GL, no memory) is a line of the report, not its end.
-    try {
-      subject.warm(run, entry);
-    } catch (const Error& error) {
-      if (error.code() != ExitCode::Machine) throw;
-      entry.failure = error.what();
-    }
-    entries.push_back(std::move(entry));
-  }
-  std::vector<std::vector<double>> times(entries.size());
-  std::vector<double> spent(entries.size());
-  for (int frame = 0; frame < options.frames; ++frame) {
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-      if (!entries[i].failure.empty() || spent[i] > kEnoughMs) continue;
-      times[i].push_back(subject.time(options.methods[i]));
-      spent[i] += times[i].back();
-    }
-  }
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    std::vector<double>& ms = times[i];
-    if (ms.empty()) continue;
-    std::sort(ms.begin(), ms.end());
-    entries[i].frames = static_cast<int>(ms.size());
-    entries[i].minMs = ms.front();
-    entries[i].medianMs = (ms[ms.size() / 2] + ms[(ms.size() - 1) / 2]) / 2;
-  }
-  return entries;
-}
+std::vector<Entry> measureScene(const BenchScene& scene, int width, int height, const MeasureOptions& options) { return run(scene, width, height, options, true); }
+std::vector<Entry> timeScene(const BenchScene& scene, int width, int height, const MeasureOptions& options) { return run(scene, width, height, options, false); }
 
 }  // namespace copeel::bench

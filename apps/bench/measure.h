@@ -2,27 +2,25 @@
 //
 // A frame is the whole way from a view to colours and depths in memory, the same for every method and back end. The reference is the cpu back end's
 // `tile` with every order of depths decided exactly; tests prove that one against exact references which the program itself does not link.
+// Methods of few passes come first; one that, by its formula and the time of a pass so far, would outlast the budget is left out, and its entry says so.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "apps/bench/compare.h"
+#include "apps/bench/method_runs.h"
 #include "apps/bench/scenes.h"
+#include "apps/bench/shape.h"
 
 namespace copeel::bench {
 
-// A method as it is asked for: with its modifiers.
-struct MethodRun {
-  const MethodInfo* method;
-  MethodOptions options;
-  std::string label;                     // what it is called on the command line; with its back end where both have the name
-};
-
 struct MeasureOptions {
   std::vector<MethodRun> methods;
-  int frames = 3;                        // timed; fewer of methods that take seconds
+  int frames = 3;                        // timed; fewer where the budget ends
   int threads = 0;
+  double budgetMs = std::numeric_limits<double>::infinity();
   std::string pictureFolder;             // receives SCENE-METHOD.png and SCENE-METHOD-error.png; empty: none
 };
 
@@ -34,17 +32,19 @@ struct Entry {
   double parameter = 0;                  // of a sweep: copies, shells
   double minMs = 0, medianMs = 0;
   int frames = 0;
-  Stats stats;                           // passes, bytes, fragments, overflow, of the last frame
+  Stats stats;                           // passes, bytes, overflow of the last frame; fragments and coplanar pixels as the method's source of depth has them
   FrameError error;
   std::string picture, errorMap;         // file names
-  std::string failure;                   // why there is nothing of it; else empty
+  std::string failure;                   // why there is nothing of it: the machine
+  std::string leftOut;                   // or its time
+
+  bool measured() const { return failure.empty() && leftOut.empty(); }
 };
 
 std::vector<Entry> measureScene(const BenchScene& scene, int width, int height, const MeasureOptions& options);
 
-// The runs that a name on the command line means: one on each back end that has the method, of those that `backend` (cpu, gl, auto: both) admits. Buffers hold
-// K fragments. Throws Error{Usage} as chooseMethod() does.
-std::vector<MethodRun> runsOf(std::string_view backend, std::string_view text, std::uint32_t k);
+// Times alone, of pictures alone (no depth, no floats): without a reference, counts and errors.
+std::vector<Entry> timeScene(const BenchScene& scene, int width, int height, const MeasureOptions& options);
 
 // "f2b+cull" as part of a file's name, too.
 std::string fileNameOf(const std::string& method);

@@ -21,8 +21,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kCopies[] = {1, 4, 12};
-constexpr unsigned kColumns = 100, kRows = 100;
 // 24 layers of it differ from 23 by more than a level of 255, so that a picture of 8 bits tells the number.
 constexpr double kAlpha = 0.08;
 
@@ -43,14 +41,14 @@ std::string lastLine(const std::string& path) {
   return last;
 }
 
-Json jobOf(const View& view, std::size_t copyCount, int frames, const std::string& mesh) {
+Json jsonOf(const VtkJob& job, const View& view, const std::string& mesh) {
   const glm::dvec3 up = -view.down;
   return {{"mesh", mesh},
-          {"copies", copyCount},
+          {"copies", job.copies},
           {"alpha", kAlpha},
           {"width", view.width},
           {"height", view.height},
-          {"frames", frames},
+          {"frames", job.frames},
           {"eye", {view.eye.x, view.eye.y, view.eye.z}},
           {"forward", {view.forward.x, view.forward.y, view.forward.z}},
           {"up", {up.x, up.y, up.z}},
@@ -83,39 +81,33 @@ std::pair<double, std::uint64_t> tileOf(const BenchScene& scene, const View& vie
 
 }  // namespace
 
-std::vector<PeerEntry> runVtk(int width, int height, int frames, int threads, std::string& note) {
+std::optional<PeerEntry> runVtk(const VtkJob& job, std::string& note) {
   const csg::TemporaryFolder folder(csg::systemTemporaryFolder());
+  const std::string mesh = folder.path() + "/mesh.obj";
+  const BenchScene scene = copies(*job.mesh, job.copies, "");
+  const View view = viewOf(scene, boundingBox(*job.mesh), job.width, job.height);
   writeFile(folder.path() + "/vtk_peeling.py", kVtkScript);
-  const Mesh mesh = shells(1, kColumns, kRows);
-  writeFile(folder.path() + "/mesh.obj", objOf(mesh));
-  std::vector<PeerEntry> entries;
-  for (const std::size_t copyCount : kCopies) {
-    const BenchScene scene = copies(mesh, copyCount, "shell");
-    const View view = viewOf(scene, boundingBox(mesh), width, height);
-    writeFile(folder.path() + "/job.json", jobOf(view, copyCount, frames, folder.path() + "/mesh.obj").dump());
-    std::vector<csg::Command> command(1);
-    command[0] = {commandOf(folder.path()), folder.path() + "/log"};
-    try {
-      csg::runAll(command, 1);
-    } catch (const Error& error) {
-      note = fmt::format("Not run: {}.", error.what());
-      return {};
-    }
-    std::ifstream file(folder.path() + "/result.json");
-    const Json result = file && command[0].exitCode == 0 ? Json::parse(file, nullptr, false) : Json();
-    if (!result.is_object()) {
-      note = fmt::format("Not run: it wants python3 with vtk (Debian: python3-vtk9) and an X server or xvfb-run; it said: {}.", lastLine(folder.path() + "/log"));
-      return {};
-    }
-    auto ms = result["ms"].get<std::vector<double>>();
-    std::sort(ms.begin(), ms.end());
-    const auto [tileMs, fragments] = tileOf(scene, view, frames, threads);
-    const std::string version = result["version"].get<std::string>();
-    entries.push_back({"VTK " + version, copyCount, ms.front(), ms[ms.size() / 2], fragments ? result["layers"].get<double>() / double(fragments) : 1, tileMs});
-    std::filesystem::remove(folder.path() + "/result.json");
+  writeFile(mesh, objOf(*job.mesh));
+  writeFile(folder.path() + "/job.json", jsonOf(job, view, mesh).dump());
+  std::vector<csg::Command> command(1);
+  command[0] = {commandOf(folder.path()), folder.path() + "/log"};
+  try {
+    csg::runAll(command, 1);
+  } catch (const Error& error) {
+    note = fmt::format("VTK was not run: {}.", error.what());
+    return {};
   }
-  note = "Dual depth peeling, all peels, unlit, opacity 0.08, the same mesh and camera, after one frame to warm up; R_h told from its picture of 8 bits, to about a per cent.";
-  return entries;
+  std::ifstream file(folder.path() + "/result.json");
+  const Json result = file && command[0].exitCode == 0 ? Json::parse(file, nullptr, false) : Json();
+  if (!result.is_object()) {
+    note = fmt::format("VTK was not run: it wants python3 with vtk (Debian: python3-vtk9) and an X server or xvfb-run; it said: {}.", lastLine(folder.path() + "/log"));
+    return {};
+  }
+  auto ms = result["ms"].get<std::vector<double>>();
+  std::sort(ms.begin(), ms.end());
+  const auto [tileMs, fragments] = tileOf(scene, view, job.frames, job.threads);
+  note = "VTK: dual depth peeling, all peels, unlit, opacity 0.08, the same mesh and camera, after one frame to warm up; R_h told from its picture of 8 bits, to about a per cent.";
+  return PeerEntry{"VTK " + result["version"].get<std::string>(), job.copies, ms.front(), ms[ms.size() / 2], fragments ? result["layers"].get<double>() / double(fragments) : 1, tileMs};
 }
 
 }  // namespace copeel::bench

@@ -2,8 +2,8 @@
 // How many fragments it kept is told from its picture: of n layers of one colour and opacity a pixel has 1 - (1 - a)^n.
 #pragma once
 
+#include <optional>
 #include <string>
-#include <vector>
 
 #include "apps/bench/scenes.h"
 
@@ -17,7 +17,14 @@ struct PeerEntry {
   double tileMs = 0;              // of ours, the same scene and size
 };
 
-// Empty where it cannot run; `note` says why, or what ran.
-std::vector<PeerEntry> runVtk(int width, int height, int frames, int threads, std::string& note);
+// A mesh, how often it is drawn, and how.
+struct VtkJob {
+  const Mesh* mesh;
+  std::size_t copies;
+  int width, height, frames, threads;   // threads: of ours
+};
+
+// Nothing where it cannot run; `note` says why, or what ran.
+std::optional<PeerEntry> runVtk(const VtkJob& job, std::string& note);
 
 }  // namespace copeel::bench

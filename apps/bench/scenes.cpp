@@ -1,17 +1,14 @@
 #include "apps/bench/scenes.h"
 
-#include <cmath>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <numbers>
-#include <random>
 #include <utility>
 
+#include <fmt/format.h>
 #include <glm/ext/matrix_transform.hpp>
 
-#include "core/error.h"
 #include "core/formats/read_mesh.h"
-#include "core/scene/camera.h"
 
 namespace copeel::bench {
 namespace {
@@ -22,6 +19,7 @@ constexpr float kAlpha = 0.3f;
 constexpr unsigned kSmall = 50;       // columns and rows of bodies that come several times
 constexpr int kCityEdge = 8;          // towers a side
 constexpr int kHairs = 600, kHairJoints = 12;
+constexpr double kStackNear = 4, kStackFar = 6;   // distances of a stack's rectangles from the eye
 
 MeshPointer share(Mesh mesh) { return std::make_shared<const Mesh>(std::move(mesh)); }
 
@@ -30,57 +28,6 @@ oit::Part partOf(const MeshPointer& mesh, std::size_t index, const glm::dmat4& w
   static constexpr float kColors[][3] = {{230, 159, 0}, {86, 180, 233}, {0, 158, 115}, {240, 228, 66}, {0, 114, 178}, {213, 94, 0}, {204, 121, 167}};
   const auto& c = kColors[index % std::size(kColors)];
   return {mesh, {c[0], c[1], c[2], kAlpha}, {}, worldFromObject};
-}
-
-// A sphere of latitude and longitude whose radius is a function of its direction; poles are fans.
-template <class Radius>
-void appendSphere(Mesh& mesh, unsigned columns, unsigned rows, Radius radius) {
-  const auto base = static_cast<unsigned>(mesh.vertices.size());
-  const auto at = [&](unsigned row, unsigned column) { return base + row * columns + column % columns; };
-  for (unsigned r = 0; r < rows; ++r) {
-    const double phi = std::numbers::pi * (r + 0.5) / rows;
-    for (unsigned c = 0; c < columns; ++c) {
-      const double theta = 2 * std::numbers::pi * c / columns;
-      mesh.vertices.push_back(radius(phi, theta) * glm::dvec3(std::sin(phi) * std::cos(theta), std::sin(phi) * std::sin(theta), std::cos(phi)));
-    }
-  }
-  for (unsigned c = 1; c + 1 < columns; ++c) {
-    mesh.triangles.emplace_back(at(0, 0), at(0, c), at(0, c + 1));
-    mesh.triangles.emplace_back(at(rows - 1, 0), at(rows - 1, c + 1), at(rows - 1, c));
-  }
-  for (unsigned r = 0; r + 1 < rows; ++r) {
-    for (unsigned c = 0; c < columns; ++c) {
-      mesh.triangles.emplace_back(at(r, c), at(r + 1, c), at(r + 1, c + 1));
-      mesh.triangles.emplace_back(at(r, c), at(r + 1, c + 1), at(r, c + 1));
-    }
-  }
-}
-
-Mesh cube() {
-  Mesh mesh;
-  for (int i = 0; i < 8; ++i) mesh.vertices.emplace_back(i & 1, i >> 1 & 1, i >> 2);
-  constexpr unsigned kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-  for (const auto& f : kFaces) {
-    mesh.triangles.emplace_back(f[0], f[1], f[2]);
-    mesh.triangles.emplace_back(f[0], f[2], f[3]);
-  }
-  return mesh;
-}
-
-// The square [-1, 1]² of cells, each cut along one diagonal or the other.
-Mesh cutSquare(unsigned cells, bool otherDiagonal) {
-  Mesh mesh;
-  for (unsigned y = 0; y <= cells; ++y) {
-    for (unsigned x = 0; x <= cells; ++x) mesh.vertices.emplace_back(2.0 * x / cells - 1, 2.0 * y / cells - 1, 0);
-  }
-  for (unsigned y = 0; y < cells; ++y) {
-    for (unsigned x = 0; x < cells; ++x) {
-      const unsigned a = y * (cells + 1) + x, b = a + 1, d = a + cells + 1, c = d + 1;
-      mesh.triangles.push_back(otherDiagonal ? glm::uvec3(a, b, d) : glm::uvec3(a, b, c));
-      mesh.triangles.push_back(otherDiagonal ? glm::uvec3(b, c, d) : glm::uvec3(a, c, d));
-    }
-  }
-  return mesh;
 }
 
 glm::dmat4 turned(double degrees, const glm::dvec3& axis) { return glm::rotate(glm::dmat4(1.0), glm::radians(degrees), glm::normalize(axis)); }
@@ -97,7 +44,7 @@ BenchScene turnedCopies(std::size_t count) {
 }
 
 // Squares of 7, 10 and 13 cells a side, in one tilted plane.
-BenchScene cutInTwoWays() {
+BenchScene cutInThreeWays() {
   BenchScene scene{"cut", "one tilted plane, tessellated in three ways", {}};
   const glm::dmat4 tilt = turned(31, {1, 0.4, 0.2});
   scene.parts = {partOf(share(cutSquare(7, false)), 0, tilt), partOf(share(cutSquare(10, true)), 1, tilt), partOf(share(cutSquare(13, false)), 2, tilt)};
@@ -116,48 +63,7 @@ BenchScene city() {
   return scene;
 }
 
-// Three-sided tubes that wander from a ball.
-Mesh hairs(int count, int joints) {
-  Mesh mesh;
-  std::mt19937 random(7);
-  // The standard fixes this engine's numbers, not those of its distributions.
-  const auto uniform = [&] { return double(random()) / 4294967296.0 * 2 - 1; };
-  for (int h = 0; h < count; ++h) {
-    glm::dvec3 at(uniform(), uniform(), uniform());
-    glm::dvec3 step = 0.12 * glm::normalize(at + glm::dvec3(1e-3, 0, 0));
-    at *= 0.4;
-    const auto base = static_cast<unsigned>(mesh.vertices.size());
-    for (int j = 0; j <= joints; ++j, at += step) {
-      const double radius = 0.012;
-      mesh.vertices.push_back(at + glm::dvec3(radius, 0, 0));
-      mesh.vertices.push_back(at + glm::dvec3(0, radius, 0));
-      mesh.vertices.push_back(at + glm::dvec3(0, 0, radius));
-      step = 0.12 * glm::normalize(step + 0.06 * glm::dvec3(uniform(), uniform(), uniform()));
-    }
-    for (unsigned j = 0; j < unsigned(joints); ++j) {
-      for (unsigned s = 0; s < 3; ++s) {
-        const unsigned a = base + 3 * j + s, b = base + 3 * j + (s + 1) % 3;
-        mesh.triangles.emplace_back(a, b, b + 3);
-        mesh.triangles.emplace_back(a, b + 3, a + 3);
-      }
-    }
-  }
-  return mesh;
-}
-
 }  // namespace
-
-Mesh bumpySphere(unsigned columns, unsigned rows) {
-  Mesh mesh;
-  appendSphere(mesh, columns, rows, [](double phi, double theta) { return 1 + 0.12 * std::sin(7 * theta) * std::sin(phi) * std::sin(6 * phi); });
-  return mesh;
-}
-
-Mesh shells(unsigned count, unsigned columns, unsigned rows) {
-  Mesh mesh;
-  for (unsigned i = 0; i < count; ++i) appendSphere(mesh, columns, rows, [&](double, double) { return 1 - 0.8 * i / count; });
-  return mesh;
-}
 
 BenchScene copies(const Mesh& mesh, std::size_t count, std::string name) {
   BenchScene scene{std::move(name), fmt::format("{} coincident copies", count), {}};
@@ -166,10 +72,32 @@ BenchScene copies(const Mesh& mesh, std::size_t count, std::string name) {
   return scene;
 }
 
-BenchScene threeInARow() {
-  BenchScene scene{"row", "three bodies in a row along the view", {}, true};
-  const MeshPointer mesh = share(bumpySphere(kSmall, kSmall));
-  for (std::size_t i = 0; i < 3; ++i) scene.parts.push_back(partOf(mesh, i, glm::translate(glm::dmat4(1.0), glm::dvec3(-2.5 * double(i), 0, 0))));
+BenchScene threeInARow(const Mesh& mesh) {
+  constexpr double kApart = 1.1, kAway = 4;   // bodies' lengths, from one to the next and from the first to the eye
+  BenchScene scene{"row", "three bodies in a row along the view", {}};
+  const MeshPointer shared = share(mesh);
+  const Box box = boundingBox(mesh);
+  const double length = box.max.x - box.min.x;
+  // A little off the axis: faces that the row runs along would lie in one plane with those of the next body, and reach through all three.
+  const glm::dvec3 along = length * glm::normalize(glm::dvec3(1, 0.017, 0.011));
+  for (std::size_t i = 0; i < 3; ++i) scene.parts.push_back(partOf(shared, i, glm::translate(glm::dmat4(1.0), -kApart * double(i) * along)));
+  const glm::dvec3 center = box.center(), eye = center + kAway * along;
+  scene.camera.camera = {eye.x, eye.y, eye.z, center.x, center.y, center.z};
+  return scene;
+}
+
+BenchScene stack(unsigned depths, unsigned coplanar) {
+  constexpr double kReach = 4;   // wider than the view at the farthest: half its height is 1.2 there
+  BenchScene scene{"stack", fmt::format("{} depths of {} coplanar fragments in half of the pixels", depths, coplanar), {}};
+  for (unsigned d = 0; d < depths; ++d) {
+    const double z = -kStackNear - (kStackFar - kStackNear) * d / depths;
+    Mesh mesh;
+    mesh.vertices = {{-kReach, -kReach, z}, {0, -kReach, z}, {0, kReach, z}, {-kReach, kReach, z}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    const MeshPointer shared = share(std::move(mesh));
+    for (unsigned c = 0; c < coplanar; ++c) scene.parts.push_back(partOf(shared, scene.parts.size()));
+  }
+  scene.camera.camera = {0, 0, 0, 0, 0, -1};   // at the origin, along -z
   return scene;
 }
 
@@ -186,23 +114,26 @@ BenchScene sceneOf(const std::string& name, std::size_t copyCount) {
   }
   if (name == "copies") return copies(bumpySphere(kSmall, kSmall), copyCount, "copies");
   if (name == "turned") return turnedCopies(copyCount);
-  if (name == "cut") return cutInTwoWays();
+  if (name == "cut") return cutInThreeWays();
   if (name == "city") return city();
   if (name == "hair") return {"hair", "a ball of hairs", {partOf(share(hairs(kHairs, kHairJoints)), 0)}};
-  if (name == "row") return threeInARow();
+  if (name == "row") return threeInARow(bumpySphere(kSmall, kSmall));
   BenchScene scene = copies(readMesh(name), copyCount, std::filesystem::path(name).stem().string());
-  scene.title = fmt::format("{} ({} coincident copies)", scene.name, copyCount);
+  scene.title = copyCount == 1 ? "as it is in its file" : fmt::format("{} coincident copies", copyCount);
   return scene;
 }
 
+bool isCoplanar(const std::string& sceneName, std::size_t copyCount) {
+  if (sceneName == "cut" || sceneName == "city") return true;
+  const auto& names = sceneNames();
+  const bool isFile = std::find(names.begin(), names.end(), sceneName) == names.end();
+  return copyCount > 1 && (isFile || sceneName == "copies" || sceneName == "turned");
+}
+
 View viewOf(const BenchScene& scene, const Box& bounds, int width, int height) {
-  CameraOptions camera;
+  CameraOptions camera = scene.camera;
   camera.width = width;
   camera.height = height;
-  if (scene.alongAxis) {
-    const glm::dvec3 center = bounds.center(), eye = center + glm::dvec3(1.6 * bounds.diagonal(), 0.01, 0.02);
-    camera.camera = {eye.x, eye.y, eye.z, center.x, center.y, center.z};
-  }
   return copeel::viewOf(camera, bounds);
 }
 

@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/bench/bodies.h"
 #include "apps/oit/render_oit.h"
+#include "core/scene/camera.h"
 
 namespace copeel::bench {
 
@@ -12,21 +14,20 @@ struct BenchScene {
   std::string name;
   std::string title;
   std::vector<oit::Part> parts;
-  bool alongAxis = false;   // seen along -x, not obliquely
+  CameraOptions camera = {};   // without numbers: openscad's angle, from afar enough to show all of it
 };
 
-// Bodies of the sweeps.
-Mesh bumpySphere(unsigned columns, unsigned rows);      // closed, radius about 1
-Mesh shells(unsigned count, unsigned columns, unsigned rows);   // closed convex shells in one another: exactly 2 · count layers in the middle
 BenchScene copies(const Mesh& mesh, std::size_t count, std::string name);
-BenchScene threeInARow();                               // along the line of sight
+BenchScene threeInARow(const Mesh& mesh);               // along the line of sight
+// Rectangles across the left half of the picture: each of its pixels has `depths` depths of `coplanar` fragments.
+BenchScene stack(unsigned depths, unsigned coplanar);
 
 // Names of the generated scenes, in the report's order.
 const std::vector<std::string>& sceneNames();
 // One of those names, or a mesh file. Throws Error{Input} as readMesh does.
 BenchScene sceneOf(const std::string& name, std::size_t copyCount);
+bool isCoplanar(const std::string& sceneName, std::size_t copyCount);   // has coplanar fragments by its making
 
-// From afar enough to show all of it.
 View viewOf(const BenchScene& scene, const Box& bounds, int width, int height);
 
 }  // namespace copeel::bench

@@ -60,6 +60,7 @@ void GlPass::draw(const View& view, const fold::OverTables& tables, const glm::v
   });
   stats.passes += counts.passes;
   stats.overflow = counts.method.overflow;
+  stats.iterations = counts.method.iterations;
   stats.methodBytes = counts.methodBytes;
   stats.objectsDrawn = counts.objectsDrawn;
   stats.passMs = counts.passMs;

@@ -26,6 +26,7 @@ struct Stats {
   std::uint64_t decidedExactly = 0;         // depth orders that the filter left open
   std::uint64_t uncertain = 0;              // depth orders that keys of 30 bits leave open (gl; the cpu decides all)
   std::uint64_t passes = 0;                 // over the scene's geometry
+  std::uint64_t iterations = 0;             // of a peeling method, 1 of the others (gl)
   std::uint64_t memoryBytes = 0;            // peak resident set
   std::uint64_t methodBytes = 0;            // of the method's buffers on the device (gl)
   std::vector<std::uint32_t> objectsDrawn;  // in each pass (gl)
