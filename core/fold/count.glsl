@@ -93,6 +93,8 @@ void countWrite(uint fragments, uint groups, uint largest) {
 #endif
 }
 
+void foldNothing() { countWrite(0u, 0u, 0u); }
+
 void foldFinishFront() { countWrite(countFragments, countGroups, countLargest); }
 
 void foldFinish() {

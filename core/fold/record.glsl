@@ -57,6 +57,11 @@ void foldFinishFront() {
   foldResults[recordAt() + 1u] = 0u;
 }
 
+void foldNothing() {
+  foldResults[recordAt()] = 0u;
+  foldResults[recordAt() + 1u] = 0u;
+}
+
 void foldFinish() {
   uint at = recordAt();
   foldLoad(COPEEL_BACK);

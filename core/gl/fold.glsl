@@ -12,6 +12,7 @@
 //
 //   void foldReset(uint side)         the state at its beginning, and not to memory
 //   void foldFinishFront()            writes the result of the side that was reset and delivered to
+//   void foldNothing()                the result of a pixel without fragments: its counts, of which the application sees that the rest is not to be read
 //
 // A front side may be given all its groups in one invocation (A-buffers) or over many passes. A group is never split between the sides.
 layout(std430, binding = COPEEL_BUFFER_FOLD_STATE) buffer FoldStates { uint foldStates[]; };
@@ -21,6 +22,14 @@ layout(std430, binding = COPEEL_BUFFER_FOLD_RESULT) writeonly buffer FoldResults
 uint foldStateAt(uint side, uint words) { return (pixelIndex() * 2u + side) * words; }
 
 #include FOLD
+
+// Ends the invocation of a pixel without fragments. On llvmpipe `discard` is a jump where it holds for all lanes, and `return` is not.
+void foldSkip() {
+#ifdef FOLD_WHOLE
+  foldNothing();
+#endif
+  discard;
+}
 
 // Around the delivery of a pixel, in one invocation, from memory or without.
 void foldOpen() {

@@ -1,7 +1,7 @@
 // Transparency on the device: core/fold/over.glsl behind the interface of core/gl/fold.glsl. Within a group the later primitive lies in front.
 //
 // Result words: colour (three doubles, premultiplied), transmittance (a double), id + 1 of the nearest primitive that is seen (0: none), fragments,
-// fragments of the largest group. The background comes later.
+// fragments of the largest group. Where there are none, the colour may be anything. The background comes later.
 #include "core/fold/common_glsl.h"
 #include "core/fold/over.glsl"
 
@@ -121,6 +121,11 @@ void overWrite(OverState whole, uint nearest, uint layers, uint largest) {
   foldResults[at + 8u] = nearest;
   foldResults[at + 9u] = layers;
   foldResults[at + 10u] = largest;
+}
+
+void foldNothing() {
+  uint at = pixelIndex() * OVER_RESULT_WORDS + 8u;
+  for (uint word = 0u; word < 3u; ++word) foldResults[at + word] = 0u;
 }
 
 void foldFinishFront() { overWrite(overMain, overNearest, overLayers, overLargest); }

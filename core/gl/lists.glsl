@@ -53,6 +53,7 @@ void main() {
     rest[list] = texelFetch(headTexels, int(headOf(list))).r;
     left |= rest[list];
   }
+  if (left == 0u) foldSkip();
   while (left != 0u && count < uint(SORT_SHORT)) {
     if (rest[0] != 0u) {
       uvec4 words = texelFetch(nodeTexels, int(rest[0] - 1u));
@@ -70,9 +71,6 @@ void main() {
     heads[headOf(0u)] |= LIST_LONG;
     return;
   }
-#ifndef FOLD_WHOLE
-  if (count == 0u) return;
-#endif
   sortShort(count);
   foldOpen();
   deliverShort(count);

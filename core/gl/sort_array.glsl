@@ -22,13 +22,11 @@ layout(binding = COPEEL_TEXTURE_METHOD) uniform usamplerBuffer arrayTexels;
 
 // Delivers, or puts off what is too long.
 void deliverArray(uint first, uint count) {
+  if (count == 0u) foldSkip();
   if (count > uint(SORT_SHORT)) {
     atomicMax(longest, count);
     return;
   }
-#ifndef FOLD_WHOLE
-  if (count == 0u) return;
-#endif
   // Later primitives come last and lie in front of their coplanar ones, so the array is read from its end.
   for (uint i = 0u; i < count; ++i) {
     uvec4 fragment = texelFetch(arrayTexels, int(ARRAY_PLACE(first, count - 1u - i)));

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "core/error.h"
@@ -21,7 +22,8 @@ TEST(GlAuto, losesNothingAndKeepsToTheBudget) {
     gl::Renderer renderer(scene.scene, planes);
     const GlStacks all = glStacksOf(renderer, scene.view, findMethod("ll")->draw, {}, kCapacity);
     const std::uint64_t pixels = all.stacks.pixels.size();
-    for (const std::uint64_t budget : {28 * pixels, 40 * pixels + 300, 100 * pixels, 4000 * pixels, std::uint64_t{0}}) {
+    // The second is what sb takes and, of many fragments, lists do not.
+    for (const std::uint64_t budget : {28 * pixels, std::max(28 * pixels, 8 * pixels + 8 * all.delivered + 300), 100 * pixels, 4000 * pixels, std::uint64_t{0}}) {
       SCOPED_TRACE(fmt::format("{}, {} bytes", scene.name, budget));
       for (int frame = 0; frame < 2; ++frame) {
         const GlStacks drawn = glStacksOf(renderer, scene.view, findMethod("auto")->draw, {.memoryBytes = budget}, kCapacity);
@@ -53,6 +55,40 @@ TEST(GlAuto, survivesAWrongLook) {
   EXPECT_LE(drawn.counts.methodBytes, budget);
   EXPECT_NE(drawn.counts.method.reason.find("too short"), std::string::npos) << drawn.counts.method.reason;
   EXPECT_TRUE(renderer.frame().look->wasTooLittle);
+}
+
+// Planes through the eye leave slivers where their triangles are clipped. Those are no fragments, and no method may count them as such before it knows.
+TEST(GlAuto, sliversOfPlanesThroughTheEyeAreNoFragments) {
+  const View view = lookAt({3, 2, 4}, {0, 0, 0}, 64, 48, 0.02);
+  std::vector<Object> objects{{share(sphere(1, 17, 9)), glm::dmat4(1.0)}};
+  for (int i = 0; i < 40; ++i) {
+    const glm::dvec3 a = glm::normalize(view.forward + 0.013 * i * glm::normalize(view.right) - 0.2 * glm::normalize(view.down));
+    const glm::dvec3 b = glm::normalize(glm::dvec3(std::cos(i), std::sin(i), std::sin(1.7 * i)));
+    objects.push_back({share(quad(view.eye - 7.0 * a - 5.0 * b, view.eye + 9.0 * a - 5.0 * b, view.eye + 9.0 * a + 3.0 * b, view.eye - 7.0 * a + 3.0 * b)), glm::dmat4(1.0)});
+  }
+  const Scene scene(std::move(objects));
+  const PlaneClasses planes(scene, 0);
+  gl::Renderer renderer(scene, planes);
+  const GlStacks all = glStacksOf(renderer, view, findMethod("ll")->draw, {}, kCapacity);
+  for (const MethodInfo& method : methods()) {
+    if (!method.draw || !method.robust) continue;
+    EXPECT_TRUE(glStacksOf(renderer, view, method.draw, {}, kCapacity).stacks.pixels == all.stacks.pixels) << method.name;
+  }
+  EXPECT_GT(renderer.frame().look->fragments, all.delivered) << "no slivers to tell apart";
+}
+
+// The look at a share of the pixels misses the deepest one. The first frame finds out, the second looks at all pixels, and then there is no more to find out.
+TEST(GlAuto, looksAgainOnlyOnce) {
+  const Scene scene = copiesOf(share(box({0, 0, 0}, {0.05, 0.05, 0.05})), 9);
+  const PlaneClasses planes(scene, 0);
+  gl::Renderer renderer(scene, planes);
+  const View view = above(320, 256);
+  std::vector<std::uint64_t> passes;
+  for (int frame = 0; frame < 4; ++frame) passes.push_back(glStacksOf(renderer, view, findMethod("auto")->draw, {}, 32).counts.passes);
+  EXPECT_GT(passes[0], 2u) << "the first look saw all there is";
+  EXPECT_EQ(passes[1], 2u);
+  EXPECT_EQ(passes[2], 1u);
+  EXPECT_EQ(passes[3], 1u);
 }
 
 TEST(GlAuto, isWhatTheBackEndsTake) {
