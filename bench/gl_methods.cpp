@@ -50,7 +50,8 @@ void declare(CLI::App& app, Options& options) {
 
 // Quads as large as the picture, one behind the other.
 BenchScene screens() {
-  BenchScene scene{"screens", "quads over the whole picture", {}, true};
+  BenchScene scene{"screens", "quads over the whole picture", {}};
+  scene.camera.camera = {2.5, 0.01, 0.02, 0, 0, 0};   // eye, centre: from where they cover the picture
   auto quad = std::make_shared<Mesh>();
   for (int i = 0; i < 4; ++i) quad->vertices.emplace_back(0, i & 1 ? 1 : -1, i & 2 ? 1 : -1);
   quad->triangles = {{0, 1, 3}, {0, 3, 2}};
