@@ -11,7 +11,9 @@ class Deadline {
   Deadline() = default;   // never
   explicit Deadline(double ms) : budgetMs_(ms) {}
 
-  double leftMs() const { return budgetMs_ - std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count(); }
+  double passedMs() const { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count(); }
+  double leftMs() const { return budgetMs_ - passedMs(); }
+  void extend(double ms) { budgetMs_ += ms; }
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

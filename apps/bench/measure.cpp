@@ -104,7 +104,7 @@ void Turns::time() {
 
 // One after the other the two sources of depth, each with all its methods in turns.
 std::vector<Entry> run(const BenchScene& scene, int width, int height, const MeasureOptions& options, bool compares) {
-  const Deadline deadline(options.budgetMs);
+  Deadline deadline(options.budgetMs);
   std::vector<Entry> entries;
   for (const MethodRun& run : options.methods) {
     Entry entry;
@@ -125,7 +125,10 @@ std::vector<Entry> run(const BenchScene& scene, int width, int height, const Mea
       for (Entry* entry : theirs) entry->leftOut = kNoTime;
       continue;
     }
+    // The budget is the methods': what it takes to know what is right does not count.
+    const Deadline setUp;
     Subject subject(scene, width, height, options, hardware, compares);
+    deadline.extend(setUp.passedMs());
     Turns turns(subject, runs, options, deadline);
     turns.warm(theirs);
     turns.time();
