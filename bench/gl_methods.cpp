@@ -101,7 +101,7 @@ std::vector<Contestant> contestants(const Options& options) {
   std::vector<Contestant> all{{"empty", drawNothing, ours, HUGE_VAL, 0, {}, {}}, {"plain", drawPlainList, plain, HUGE_VAL, 0, {}, {}}};
   const std::vector<std::string> standard = {"ll", "fab", "bun-ll", "sb", "hybrid", "auto"};
   for (const std::string& name : options.methods.empty() ? standard : options.methods) {
-    const MethodInfo* method = findMethod(name);
+    const MethodInfo* method = findMethod(name, "gl");
     if (!method || !method->draw) failUsage("--methods: '{}' is not a method of the gl back end", name);
     all.push_back({name, method->draw, ours, HUGE_VAL, 0, {}, {}});
   }
@@ -180,7 +180,7 @@ void checkResults(const std::vector<Contestant>& all, const std::string& scene) 
   constexpr double kRounding = 1e-9;   // of a level
   const std::vector<std::uint32_t>& plain = all[1].result;
   for (const Contestant& contestant : all) {
-    const MethodInfo* method = findMethod(contestant.name);
+    const MethodInfo* method = findMethod(contestant.name, "gl");
     if (!method || !method->robust || contestant.counts.method.overflow > 0) continue;
     for (std::size_t at = 0; at < plain.size(); at += oit::kOverResultWords) {
       const std::uint32_t *words = contestant.result.data() + at, *wanted = plain.data() + at;
@@ -198,7 +198,7 @@ std::vector<std::string> rowOf(const std::string& scene, int width, int height, 
   std::string bestName, chosenName;
   for (const Contestant& contestant : all) {
     row.push_back(fmt::format("{:.2f}", contestant.bestMs));
-    const MethodInfo* method = findMethod(contestant.name);
+    const MethodInfo* method = findMethod(contestant.name, "gl");
     if (contestant.name == "auto") chosen = contestant.bestMs, chosenName = contestant.counts.method.chosen;
     else if (method && method->robust && contestant.bestMs < best) best = contestant.bestMs, bestName = contestant.name;
   }

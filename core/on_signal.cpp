@@ -4,6 +4,7 @@
 
 #include <dirent.h>
 #include <fcntl.h>
+#include <sched.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -64,7 +65,12 @@ constexpr int kChildCount = 64;   // programs at once; further ones only outlive
 std::array<std::atomic<pid_t>, kChildCount> children{};
 static_assert(std::atomic<pid_t>::is_always_lock_free, "the signal handler reads the children");
 
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
+std::atomic<int> waiting{0};      // SignalsWait that live
+
 extern "C" void cleanUpAndDie(int signal) {
+  // Another thread's: in its own, signals are held back.
+  while (waiting > 0) ::sched_yield();
   // Children first: they may still write into a folder that goes.
   for (const std::atomic<pid_t>& child : children) {
     if (const pid_t process = child; process > 0) ::kill(process, SIGKILL);
@@ -96,12 +102,25 @@ EndedOnSignal::~EndedOnSignal() {
   if (slot_ >= 0) children[slot_] = 0;
 }
 
+SignalsWait::SignalsWait() {
+  sigset_t ours;
+  sigemptyset(&ours);
+  for (const int signal : kSignals) sigaddset(&ours, signal);
+  ::pthread_sigmask(SIG_BLOCK, &ours, &before_);
+  ++waiting;
+}
+
+SignalsWait::~SignalsWait() {
+  --waiting;
+  ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
 void cleanUpOnSignal() {
   struct sigaction action {};
   action.sa_handler = cleanUpAndDie;
   action.sa_flags = SA_RESETHAND | SA_NODEFER;
   sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : kSignals) {
     // A signal that the parent chose to ignore (nohup) stays ignored.
     struct sigaction previous {};
     if (::sigaction(signal, nullptr, &previous) == 0 && previous.sa_handler == SIG_IGN) continue;

@@ -1,6 +1,7 @@
 // What a signal that ends the program takes with it: temporaries that are no outputs yet, and programs that work for this one.
 #pragma once
 
+#include <csignal>
 #include <string>
 
 #include <sys/types.h>
@@ -29,6 +30,19 @@ class EndedOnSignal {
 
  private:
   int slot_;
+};
+
+// While it lives, signals wait: a child is known to them before its parent ends. The child is to be given the signals that were held back before.
+class SignalsWait {
+ public:
+  SignalsWait();
+  ~SignalsWait();
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+  const sigset_t& before() const { return before_; }
+
+ private:
+  sigset_t before_;
 };
 
 // For main: SIGINT, SIGTERM and SIGHUP do so and then end the process as they would have.

@@ -20,7 +20,7 @@ extern char** environ;
 namespace copeel::csg {
 namespace {
 
-pid_t start(const Command& command) {
+pid_t start(const Command& command, const sigset_t& signals) {
   std::vector<char*> arguments;
   for (const std::string& argument : command.arguments) arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);
@@ -29,8 +29,13 @@ pid_t start(const Command& command) {
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, command.logPath.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
   posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setsigmask(&attributes, &signals);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
   pid_t process = 0;
-  const int status = posix_spawnp(&process, arguments.front(), &actions, nullptr, arguments.data(), environ);
+  const int status = posix_spawnp(&process, arguments.front(), &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (status != 0) failMachine("{}: cannot be run: {}", command.arguments.front(), std::strerror(status));
   return process;
@@ -40,7 +45,9 @@ int codeOf(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + 
 
 }  // namespace
 
-Process::Process(const Command& command) : id_(start(command)), onSignal_(id_) {}
+Process::Process(const Command& command) : Process(command, SignalsWait()) {}
+
+Process::Process(const Command& command, const SignalsWait& wait) : id_(start(command, wait.before())), onSignal_(id_) {}
 
 Process::~Process() {
   if (!ended_) kill(id_, SIGKILL);

@@ -29,6 +29,7 @@ class Process {
   pid_t id() const { return id_; }
 
  private:
+  Process(const Command& command, const SignalsWait& wait);
   pid_t id_;
   std::optional<EndedOnSignal> onSignal_;
   bool ended_ = false;

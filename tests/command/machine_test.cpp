@@ -78,7 +78,7 @@ TEST_F(Machine, LittleMemory) {
     }
   }
   EXPECT_GE(enough, 6);
-  expectFailure(run({"oit", "square.obj", "-o", "a.png", "--backend", "gl", "--memory", "40M"}), 3);   // 512 x 512 pixels
+  expectFailure(run({"oit", "square.obj", "-o", "a.png", "--method", "hybrid", "--memory", "40M"}), 3);   // 512 x 512 pixels of 248 bytes
 }
 
 // 64 x 48 pixels with 220 bytes of state take 0.7 MB of these 20; 2 million fragments want 25 for lists.

@@ -17,11 +17,13 @@ std::vector<oit::Part> bodies() {
           {cube, {200, 200, 30, 0.25}, {}, rotation({0, 0, 90})}, {cube, {90, 90, 90, 0}, {}, glm::dmat4(1.0)}, {post, {250, 250, 250, 1}, {}, glm::dmat4(1.0)}};
 }
 
+const std::vector<Light> kLights = {{{1, 2, 3}, 0.7}, {{-2, 1, 0.5}, 0.4}};
+
 oit::Frame drawnWith(std::string_view method, double offset = 0, std::string_view backend = "auto") {
   oit::RenderOptions options;
   options.method = findMethod(method, backend);
   options.methodOptions.k = 3;
-  options.lights = {{{1, 2, 3}, 0.7}, {{-2, 1, 0.5}, 0.4}};
+  options.lights = kLights;
   options.wantDepth = options.wantIds = options.wantLayers = options.wantCoplanar = true;
   View view = lookAt({3, 2, 4}, {0, 0, 0}, 64, 48, 0.02);
   view.offset = {offset, offset};
@@ -31,6 +33,7 @@ oit::Frame drawnWith(std::string_view method, double offset = 0, std::string_vie
 oit::RenderOptions listsWith(bool counts) {
   oit::RenderOptions options;
   options.method = findMethod("ll");
+  options.lights = kLights;
   options.wantDepth = options.wantIds = true;
   options.wantLayers = options.wantCoplanar = counts;
   return options;
