@@ -1,6 +1,8 @@
 #include "apps/oit/over_fold.h"
 
 #include <algorithm>
+#include <bit>
+
 
 namespace copeel::oit {
 
@@ -33,6 +35,59 @@ inline void OverFold::setColor(PixelResult& result, const fold::OverState& state
 void OverFold::finishResult() {
   setColor(result_, state_);
   ready_ = true;
+}
+
+namespace {
+Rgb8 rgb8Of(const fold::BlendedPixel& pixel) {
+  return {static_cast<std::uint8_t>(pixel.levels), static_cast<std::uint8_t>(pixel.levels >> 8), static_cast<std::uint8_t>(pixel.levels >> 16)};
+}
+}  // namespace
+
+inline void OverFold::putColors(std::uint64_t pixels, const fold::BlendedPixel* blended, int x, int y) const {
+  Image<Rgb8>* const image = canvas_.targets().color;
+  if (!image) return;
+  for (int row = 0; row < cpu::kBlockSize; ++row) {
+    Rgb8* const to = image->pixels.data() + std::size_t(y + row) * std::size_t(image->width) + x;
+    const fold::BlendedPixel* const from = blended + row * cpu::kBlockSize;
+    for (std::uint64_t left = pixels >> (row * cpu::kBlockSize) & 0xFF; left; left &= left - 1) {
+      const int k = std::countr_zero(left);
+      to[k] = rgb8Of(from[k]);
+    }
+  }
+}
+
+std::uint64_t OverFold::foldBlock(const cpu::FragmentGrid::Block& block, const cpu::Tile& tile, const cpu::BlockOrder& order, int x, int y) {
+  fold::BlendedPixel blended[cpu::kBlockPixels];
+  const std::uint64_t coplanar = fold::blendBlock({block, tile.format, colors_.data(), background_, mayEnd_}, order, blended);
+  const bool wantsNearest = canvas_.targets().depth || canvas_.targets().ids;
+  if (!wantsNearest && !canvas_.targets().floats) {
+    putColors(order.certain, blended, x, y);
+    return coplanar;
+  }
+  for (std::uint64_t pixels = order.certain; pixels; pixels &= pixels - 1) {
+    const int p = std::countr_zero(pixels);
+    const fold::BlendedPixel& from = blended[p];
+    PixelResult result;
+    result.color = {from.color[0], from.color[1], from.color[2]};
+    result.bytes = rgb8Of(from);
+    if (wantsNearest) result.nearest = nearestSeen({block.keys.get() + p, block.counts[p], cpu::kBlockPixels, tile.format, tile.slots.data()});
+    canvas_.put(x + p % cpu::kBlockSize, y + p / cpu::kBlockSize, result, tile);
+  }
+  return coplanar;
+}
+
+// Of an ordered pixel: the first fragment that is not quite clear; of coplanar ones, the last slot.
+const cpu::TileSlot* OverFold::nearestSeen(const PixelStack& stack) const {
+  std::uint32_t begin = 0;
+  for (std::uint32_t i = 0; i < stack.count; ++i) {
+    if (stack.format.depthOf(stack.key(i)) != stack.format.depthOf(stack.key(begin))) begin = i;
+    const bool endsGroup = i + 1 == stack.count || stack.format.depthOf(stack.key(i + 1)) != stack.format.depthOf(stack.key(begin));
+    if (!endsGroup) continue;
+    for (std::uint32_t k = i + 1; k-- > begin;) {
+      if (colors_[stack.slot(k)].a > 0) return &stack.slots[stack.slot(k)];
+    }
+  }
+  return nullptr;
 }
 
 PixelResult OverFold::single(const cpu::TileSlot& slot, const cpu::Tile& tile) const {

@@ -13,6 +13,7 @@
 #include "core/cpu/tile.h"
 #include "core/fold/fold.h"
 #include "core/fold/over.h"
+#include "core/fold/over_block.h"
 #include "core/image/image.h"
 
 namespace copeel::oit {
@@ -86,6 +87,7 @@ class OverFold {
   bool mayShow(std::span<const cpu::DepthRange>) const { return true; }
   cpu::DepthRange window(const PixelStack&) const { return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}; }
   bool needsWholeStack() const { return false; }
+  bool takesBlocks() const { return !canvas_.targets().counts(); }
   // Without an opaque face the fold never has enough, and layers are counted to the last.
   double leastFragments() const { return mayEnd_ ? 1 : std::numeric_limits<double>::infinity(); }
 
@@ -113,6 +115,9 @@ class OverFold {
     canvas_.put(x, y, result_, *tile_);
   }
 
+  // Whole blocks at once (core/fold/fold.h). Layers and groups are counted pixel by pixel.
+  std::uint64_t foldBlock(const cpu::FragmentGrid::Block& block, const cpu::Tile& tile, const cpu::BlockOrder& order, int x, int y);
+
   // The z-buffer's pixel, which has one fragment.
   PixelResult single(const cpu::TileSlot& slot, const cpu::Tile& tile) const;
 
@@ -125,6 +130,8 @@ class OverFold {
   glm::vec4 colorOf(const cpu::TileSlot& slot, std::uint32_t object) const;
   void setColor(PixelResult& result, const fold::OverState& state) const;
   void finishResult();
+  const cpu::TileSlot* nearestSeen(const PixelStack& stack) const;
+  void putColors(std::uint64_t pixels, const fold::BlendedPixel* blended, int x, int y) const;
 
   const Scene& scene_;
   const fold::OverTables& tables_;

@@ -42,31 +42,37 @@ class Binner {
   Binner(const View& view, int bits, int columns, std::vector<Entry>& entries)
       : bits_(bits), width_(view.width), height_(view.height), columns_(columns), entries_(entries) {}
 
-  void add(const glm::ivec2& p, const glm::ivec2& q, const glm::ivec2& r, std::uint32_t reference) {
+  inline __attribute__((always_inline)) void add(const glm::ivec2& p, const glm::ivec2& q, const glm::ivec2& r, std::uint32_t reference) {
     // Samples have whole-pixel coordinates: the first at or after the smallest corner, the last at or before the largest.
     const int round = (1 << bits_) - 1;
-    const int x0 = std::max((std::min({p.x, q.x, r.x}) + round) >> bits_, 0);
-    const int y0 = std::max((std::min({p.y, q.y, r.y}) + round) >> bits_, 0);
-    const int x1 = std::min(std::max({p.x, q.x, r.x}) >> bits_, width_ - 1);
-    const int y1 = std::min(std::max({p.y, q.y, r.y}) >> bits_, height_ - 1);
+    const int x0 = std::max((std::min(std::min(p.x, q.x), r.x) + round) >> bits_, 0);
+    const int y0 = std::max((std::min(std::min(p.y, q.y), r.y) + round) >> bits_, 0);
+    const int x1 = std::min(std::max(std::max(p.x, q.x), r.x) >> bits_, width_ - 1);
+    const int y1 = std::min(std::max(std::max(p.y, q.y), r.y) >> bits_, height_ - 1);
     if (x0 > x1 || y0 > y1) return;
+    const int c0 = tileAt(x0), c1 = tileAt(x1), r0 = tileAt(y0), r1 = tileAt(y1);
+    if (c0 == c1 && r0 == r1) entries_.push_back({static_cast<std::uint32_t>(r0 * columns_ + c0), reference});
+    else addToMany(p, q, r, {c0, r0, c1, r1}, reference);
+  }
+
+ private:
+  struct Tiles {
+    int c0, r0, c1, r1;   // columns and rows, inclusive
+  };
+  static int tileAt(int pixel) { return static_cast<int>(static_cast<unsigned>(pixel) / kTileSize); }
+
+  __attribute__((noinline)) void addToMany(const glm::ivec2& p, const glm::ivec2& q, const glm::ivec2& r, const Tiles& tiles, std::uint32_t reference) {
     const std::int64_t area = std::int64_t{q.x - p.x} * (r.y - p.y) - std::int64_t{q.y - p.y} * (r.x - p.x);
     if (area == 0) return;
-    const int c0 = x0 / kTileSize, c1 = x1 / kTileSize, r0 = y0 / kTileSize, r1 = y1 / kTileSize;
-    if (c0 == c1 && r0 == r1) {
-      entries_.push_back({static_cast<std::uint32_t>(r0 * columns_ + c0), reference});
-      return;
-    }
-    const bool small = (c1 - c0 + 1) * (r1 - r0 + 1) <= 2;
-    for (int row = r0; row <= r1; ++row) {
-      for (int column = c0; column <= c1; ++column) {
+    const bool small = (tiles.c1 - tiles.c0 + 1) * (tiles.r1 - tiles.r0 + 1) <= 2;
+    for (int row = tiles.r0; row <= tiles.r1; ++row) {
+      for (int column = tiles.c0; column <= tiles.c1; ++column) {
         if (!small && misses(p, q, r, area > 0, column, row)) continue;
         entries_.push_back({static_cast<std::uint32_t>(row * columns_ + column), reference});
       }
     }
   }
 
- private:
   // True when one edge has the whole tile on its outer side.
   bool misses(const glm::ivec2& p, const glm::ivec2& q, const glm::ivec2& r, bool positive, int column, int row) const {
     return outside(p, q, positive, column, row) || outside(q, r, positive, column, row) || outside(r, p, positive, column, row);

@@ -72,6 +72,72 @@ HWY_INLINE HWY_ATTR hn::Mask<Exact> setUpEdge(const Corner& from, const Corner& 
   return hn::Ge(largest, zero);
 }
 
+using Samples = hn::CappedTag<std::int32_t, 8>;
+
+// Edge functions of sample (x0, y0) of the triangles at `i`, and the steps to the next one.
+struct EdgeWalk {
+  hn::Vec<Samples> e, a, b;
+
+  HWY_INLINE HWY_ATTR EdgeWalk(const EdgeBatch& batch, int edge, int i) {
+    const Samples d;
+    a = hn::Load(d, batch.a[edge] + i), b = hn::Load(d, batch.b[edge] + i);
+    e = hn::Add(hn::Load(d, batch.c[edge] + i), hn::Add(hn::Mul(a, hn::Load(d, batch.x0 + i)), hn::Mul(b, hn::Load(d, batch.y0 + i))));
+  }
+};
+
+// Column 0 … 3 of a row of four samples; row bits.
+template <int kBit>
+HWY_INLINE HWY_ATTR void addSample(const EdgeWalk& u, const EdgeWalk& v, const EdgeWalk& w, hn::Vec<Samples>& outside) {
+  const hn::RebindToUnsigned<Samples> bits;
+  const auto sign = hn::ShiftRight<31>(hn::BitCast(bits, hn::Or(hn::Or(u.e, v.e), w.e)));
+  outside = hn::Or(outside, hn::BitCast(Samples(), hn::ShiftLeft<kBit>(sign)));
+}
+
+template <int kRow>
+HWY_INLINE HWY_ATTR void addRow(EdgeWalk u, EdgeWalk v, EdgeWalk w, hn::Vec<Samples>& outside) {
+  const auto step = [](EdgeWalk& walk) HWY_ATTR { walk.e = hn::Add(walk.e, walk.a); };
+  addSample<4 * kRow>(u, v, w, outside);
+  step(u), step(v), step(w);
+  addSample<4 * kRow + 1>(u, v, w, outside);
+  step(u), step(v), step(w);
+  addSample<4 * kRow + 2>(u, v, w, outside);
+  step(u), step(v), step(w);
+  addSample<4 * kRow + 3>(u, v, w, outside);
+}
+
+HWY_INLINE HWY_ATTR void coverFour(EdgeBatch& batch, int i) {
+  const Samples d;
+  EdgeWalk u(batch, 0, i), v(batch, 1, i), w(batch, 2, i);
+  auto outside = hn::Zero(d);
+  const auto down = [](EdgeWalk& walk) HWY_ATTR { walk.e = hn::Add(walk.e, walk.b); };
+  addRow<0>(u, v, w, outside);
+  down(u), down(v), down(w);
+  addRow<1>(u, v, w, outside);
+  down(u), down(v), down(w);
+  addRow<2>(u, v, w, outside);
+  down(u), down(v), down(w);
+  addRow<3>(u, v, w, outside);
+  hn::Store(hn::Not(outside), d, batch.covered + i);
+}
+
+// Bits of 4×4 samples of which some columns or rows are within bounds.
+inline constexpr std::uint16_t kColumns[] = {0, 0x1111, 0x3333, 0x7777, 0xFFFF}, kRows[] = {0, 0x000F, 0x00FF, 0x0FFF, 0xFFFF};
+
+// What small triangles cover. One that covers nothing is no triangle.
+HWY_INLINE HWY_ATTR void coverSmall(EdgeBatch& batch, int count) {
+  for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(Samples()))) coverFour(batch, i);
+  for (int i = 0; i < count; ++i) {
+    const int width = batch.x1[i] - batch.x0[i] + 1, height = batch.y1[i] - batch.y0[i] + 1;
+    if (batch.side[i] == 0 || width > 4 || height > 4) {
+      batch.covered[i] = 0;
+      continue;
+    }
+    batch.covered[i] &= kColumns[width] & kRows[height];
+    batch.samples[i] = __builtin_popcount(static_cast<unsigned>(batch.covered[i]));
+    if (batch.covered[i] == 0) batch.side[i] = 0;
+  }
+}
+
 HWY_ATTR void SetUpEdges(EdgeBatch& batch, int count, const TileFrame& tile) {
   const Exact d;
   const Whole whole;
@@ -104,6 +170,7 @@ HWY_ATTR void SetUpEdges(EdgeBatch& batch, int count, const TileFrame& tile) {
     const Lanes side = hn::IfThenElse(front, one, hn::Neg(one));
     hn::Store(hn::DemoteTo(whole, hn::IfThenElseZero(hn::And(hn::And(holds, pq), hn::And(qr, rp)), side)), whole, batch.side + i);
   }
+  coverSmall(batch, count);
 }
 
 }  // namespace HWY_NAMESPACE

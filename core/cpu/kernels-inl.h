@@ -20,6 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using I32 = hn::CappedTag<std::int32_t, kBlockSize>;
 using F64 = hn::CappedTag<double, kBlockSize>;
 using U64 = hn::CappedTag<std::uint64_t, kBlockSize>;
+using I64 = hn::CappedTag<std::int64_t, kBlockSize>;
 
 alignas(64) inline constexpr double kIota[kBlockSize] = {0, 1, 2, 3, 4, 5, 6, 7};
 alignas(64) inline constexpr std::int32_t kIotaInt[kBlockSize] = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -60,14 +61,15 @@ HWY_INLINE HWY_ATTR std::uint64_t blockCoverage(const TriangleSetup& t, int x, i
   return bits & columns;
 }
 
-// The keys of the eight pixels of a block's row. x, y: the row's first pixel in the tile.
+// The keys of so many pixels of a row. x, y: the first one in the tile.
+template <int kCount>
 HWY_INLINE HWY_ATTR void rowKeys(const TriangleSetup& t, int x, int y, KeyFormat format, std::uint64_t* keys) {
-  const F64 d;
-  const U64 u;
+  const hn::CappedTag<double, kCount> d;
+  const hn::CappedTag<std::uint64_t, kCount> u;
   const auto da = hn::Set(d, t.da), base = hn::Set(d, t.db * y + t.dc);
   const auto lo = hn::Set(d, t.lo), hi = hn::Set(d, t.hi), first = hn::Set(d, static_cast<double>(x));
   const auto slot = hn::Set(u, std::uint64_t{t.slot});
-  for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(d)) {
+  for (std::size_t lane = 0; lane < kCount; lane += hn::Lanes(d)) {
     const auto at = hn::Add(first, hn::Load(d, kIota + lane));
     const auto depth = hn::Min(hn::Max(hn::Add(hn::Mul(da, at), base), lo), hi);
     // The mantissa of 2^52 + n is n: shifted up it loses exponent and sign, shifted back it leaves the two clear bits of a key.
@@ -128,9 +130,25 @@ HWY_INLINE HWY_ATTR std::uint64_t windowCoverage(const TriangleSetup& t, const W
   return within & ~outside;
 }
 
+HWY_INLINE unsigned blockAt(unsigned x, unsigned y) { return y / kBlockSize * kBlocksPerSide + x / kBlockSize; }
+HWY_INLINE unsigned pixelAt(unsigned x, unsigned y) { return y % kBlockSize * kBlockSize + x % kBlockSize; }
+
+// Those of a triangle whose set-up has found the samples already.
+template <class Visit>
+HWY_INLINE HWY_ATTR void forEachCovered(const TriangleSetup& t, KeyFormat format, Visit visit) {
+  constexpr unsigned kSide = 4;
+  alignas(64) std::uint64_t keys[kSide * kSide];
+  for (unsigned row = 0, last = t.y1 - t.y0; row <= last; ++row) rowKeys<kSide>(t, t.x0, t.y0 + static_cast<int>(row), format, keys + kSide * row);
+  for (std::uint32_t covered = t.covered; covered; covered &= covered - 1) {
+    const unsigned bit = static_cast<unsigned>(__builtin_ctz(covered)), x = t.x0 + bit % kSide, y = t.y0 + bit / kSide;
+    visit(blockAt(x, y), pixelAt(x, y), keys[bit]);
+  }
+}
+
 // `visit(block, pixel, key)` for the samples of a small triangle. The keys come of the same operations as in rowKeys.
 template <class Visit>
 HWY_INLINE HWY_ATTR void forEachSample(const TriangleSetup& t, KeyFormat format, Visit visit) {
+  if (t.covered) return forEachCovered(t, format, visit);
   // A window starts at the bounds' corner and has their shape: nearly every small triangle needs but one, where it would straddle two to
   // four blocks. One of up to 8 columns has 8·8 / columns rows at most, so that the windows of a column are never more than two.
   const int width = t.x1 - t.x0 + 1, log = width > 4 ? 3 : width > 2 ? 2 : width - 1;
@@ -144,7 +162,7 @@ HWY_INLINE HWY_ATTR void forEachSample(const TriangleSetup& t, KeyFormat format,
         const double depth = std::min(std::max(affine, t.lo), t.hi);
         std::uint64_t bits;
         __builtin_memcpy(&bits, &depth, sizeof bits);
-        visit(py / kBlockSize * kBlocksPerSide + px / kBlockSize, py % kBlockSize * kBlockSize + px % kBlockSize,
+        visit(blockAt(static_cast<unsigned>(px), static_cast<unsigned>(py)), pixelAt(static_cast<unsigned>(px), static_cast<unsigned>(py)),
               (bits << (64 - format.depthBits)) >> (64 - kKeyBits) | t.slot);
       }
     }
@@ -191,7 +209,7 @@ HWY_ATTR bool CollectFragments(const TriangleSetup* triangles, std::size_t count
     const std::uint32_t touched = touchedBlocks(t);
     if (isSmall(t) && !(touched & ~open)) {
       if (!makeRoom(grid, touched)) return false;
-      forEachSample(t, format, [&](int index, int pixel, std::uint64_t key) HWY_ATTR {
+      forEachSample(t, format, [&](unsigned index, unsigned pixel, std::uint64_t key) HWY_ATTR {
         FragmentGrid::Block& block = grid.block(index);
         block.keys[std::size_t{block.counts[pixel]++} * kBlockPixels + pixel] = key;
       });
@@ -205,7 +223,7 @@ HWY_ATTR bool CollectFragments(const TriangleSetup* triangles, std::size_t count
         std::uint32_t mask = covered >> (row * kBlockSize) & 0xFF;
         if (!mask) continue;
         alignas(64) std::uint64_t keys[kBlockSize];
-        rowKeys(t, x, y + row, format, keys);
+        rowKeys<kBlockSize>(t, x, y + row, format, keys);
         std::uint32_t* counts = block.counts + row * kBlockSize;
         std::uint64_t* pixels = block.keys.get() + row * kBlockSize;
         if (mask == 0xFF && sameCounts(counts)) {
@@ -231,7 +249,7 @@ HWY_ATTR void CollectNearest(const TriangleSetup* triangles, std::size_t count, 
   for (std::size_t i = 0; i < count; ++i) {
     const TriangleSetup& t = triangles[i];
     if (isSmall(t) && !(touchedBlocks(t) & ~open)) {
-      forEachSample(t, format, [&](int block, int pixel, std::uint64_t key) HWY_ATTR {
+      forEachSample(t, format, [&](unsigned block, unsigned pixel, std::uint64_t key) HWY_ATTR {
         std::uint64_t& least = nearest[block * kBlockPixels + pixel];
         least = std::min(least, key);
       });
@@ -242,7 +260,7 @@ HWY_ATTR void CollectNearest(const TriangleSetup* triangles, std::size_t count, 
         const std::uint32_t mask = covered >> (row * kBlockSize) & 0xFF;
         if (!mask) continue;
         alignas(64) std::uint64_t keys[kBlockSize];
-        rowKeys(t, x, y + row, format, keys);
+        rowKeys<kBlockSize>(t, x, y + row, format, keys);
         std::uint64_t* pixels = nearest + index * kBlockPixels + row * kBlockSize;
         for (int k = 0; k < kBlockSize; ++k) {
           const std::uint64_t key = mask >> k & 1 ? keys[k] : kEmptyKey;
@@ -298,10 +316,10 @@ HWY_ATTR void CollectKNearest(const TriangleSetup* triangles, std::size_t count,
   for (std::size_t i = 0; i < count; ++i) {
     const TriangleSetup& t = triangles[i];
     if (isSmall(t) && !(touchedBlocks(t) & ~open)) {
-      forEachSample(t, format, [&](int index, int pixel, std::uint64_t key) HWY_ATTR {
+      forEachSample(t, format, [&](unsigned index, unsigned pixel, std::uint64_t key) HWY_ATTR {
         NearestGrid::Block& block = grid.block(index);
         ++block.seen[pixel];
-        if (key < block.kept.keys[lastLayer + pixel] + doubt.reach) keepNearest(block, k, pixel, key, format, doubt);
+        if (key < block.kept.keys[lastLayer + pixel] + doubt.reach) keepNearest(block, k, static_cast<int>(pixel), key, format, doubt);
       });
       continue;
     }
@@ -311,7 +329,7 @@ HWY_ATTR void CollectKNearest(const TriangleSetup* triangles, std::size_t count,
         std::uint32_t mask = covered >> (row * kBlockSize) & 0xFF;
         if (!mask) continue;
         alignas(64) std::uint64_t keys[kBlockSize];
-        rowKeys(t, x, y + row, format, keys);
+        rowKeys<kBlockSize>(t, x, y + row, format, keys);
         for (int lane = 0; lane < kBlockSize; ++lane) block.seen[row * kBlockSize + lane] += mask >> lane & 1;
         mask &= mayBeKept(keys, block.kept.keys.get() + lastLayer + row * kBlockSize, doubt.reach);
         for (; mask; mask &= mask - 1) {
@@ -377,6 +395,78 @@ HWY_ATTR void SortBlock(FragmentGrid::Block& block) {
     }
     sortLayers(keys, n);
   }
+}
+
+// Lanes where a key and the next are `reach` or less apart; both fragments, or none.
+HWY_INLINE HWY_ATTR std::uint32_t closeLanes(const std::uint64_t* keys, KeyFormat format, std::uint64_t reach) {
+  const I64 d;
+  std::uint32_t mask = 0;
+  for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(d)) {
+    const auto depth = [&](const std::uint64_t* at) HWY_ATTR {
+      return hn::BitCast(d, hn::ShiftRightSame(hn::LoadU(U64(), at + lane), format.slotBits()));
+    };
+    const auto gap = hn::Sub(depth(keys + kBlockPixels), depth(keys));
+    std::uint8_t byte[8] = {};
+    hn::StoreMaskBits(d, hn::Lt(gap, hn::Set(d, static_cast<std::int64_t>(reach) + 1)), byte);
+    mask |= (std::uint32_t{byte[0]} & ((1u << hn::Lanes(d)) - 1)) << lane;
+  }
+  return mask;
+}
+
+// Lanes 1 … 7 where a key has the slot of the one before.
+HWY_INLINE HWY_ATTR std::uint32_t sameSlots(const std::uint64_t* keys, KeyFormat format) {
+  const U64 u;
+  const auto slot = hn::Set(u, (std::uint64_t{1} << format.slotBits()) - 1);
+  std::uint32_t mask = 0;
+  for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(u)) {
+    const auto differs = hn::And(hn::Xor(hn::LoadU(u, keys + lane), hn::LoadU(u, keys + lane + 1)), slot);
+    std::uint8_t byte[8] = {};
+    hn::StoreMaskBits(u, hn::Eq(differs, hn::Zero(u)), byte);
+    mask |= (std::uint32_t{byte[0]} & ((1u << hn::Lanes(u)) - 1)) << lane;
+  }
+  return mask << 1 & 0xFE;
+}
+
+// Some fragment's depth is so uncertain that its neighbours in order may not be adjacent.
+inline bool hasCoarse(const std::uint64_t* keys, std::uint32_t count, KeyFormat format, const TileSlot* slots) {
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (slots[format.slotOf(keys[std::size_t{i} * kBlockPixels])].coarse) return true;
+  }
+  return false;
+}
+
+HWY_ATTR BlockOrder OrderOfBlock(const FragmentGrid::Block& block, const Tile& tile) {
+  const KeyFormat format = tile.format;
+  const std::uint64_t reach = 2 * format.uncertainty;
+  const TileSlot* const slots = tile.slots.data();
+  BlockOrder order;
+  for (int row = 0; row < kBlockSize; ++row) {
+    const std::uint32_t* counts = block.counts + row * kBlockSize;
+    const std::uint64_t* keys = block.keys.get() + row * kBlockSize;
+    std::uint32_t most = 0, filled = 0, alike = 0;
+    for (int k = 0; k < kBlockSize; ++k) {
+      most = counts[k] > most ? counts[k] : most;
+      filled |= std::uint32_t{counts[k] > 0} << k;
+      alike |= std::uint32_t{k > 0 && counts[k] == counts[k - 1]} << k;
+    }
+    std::uint32_t open = 0, coplanar = 0;
+    for (int k = 0; k < kBlockSize && tile.coarse; ++k) open |= std::uint32_t{hasCoarse(keys + k, counts[k], format, slots)} << k;
+    for (std::uint32_t i = 0; i < most; ++i, keys += kBlockPixels) {
+      if (alike) alike &= sameSlots(keys, format);
+      if (i + 1 == most) break;
+      for (std::uint32_t close = closeLanes(keys, format, reach) & ~open; close; close &= close - 1) {
+        const int k = __builtin_ctz(close);
+        if (i + 1 >= counts[k]) continue;
+        const bool isOne = slots[format.slotOf(keys[k])].planeClass == slots[format.slotOf(keys[kBlockPixels + k])].planeClass;
+        (isOne ? coplanar : open) |= 1u << k;
+      }
+    }
+    const std::uint32_t certain = filled & ~open;
+    order.certain |= std::uint64_t{certain} << (row * kBlockSize);
+    order.coplanar |= std::uint64_t{coplanar & certain} << (row * kBlockSize);
+    order.repeats |= std::uint64_t{alike & certain & certain << 1} << (row * kBlockSize);
+  }
+  return order;
 }
 
 const char* SimdName() { return hwy::TargetName(HWY_TARGET); }

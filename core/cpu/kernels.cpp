@@ -19,6 +19,7 @@ namespace copeel::cpu {
 
 HWY_EXPORT(CollectFragments);
 HWY_EXPORT(SortBlock);
+HWY_EXPORT(OrderOfBlock);
 HWY_EXPORT(CollectNearest);
 HWY_EXPORT(CollectKNearest);
 HWY_EXPORT(SimdName);
@@ -29,6 +30,8 @@ bool collectFragments(std::span<const TriangleSetup> triangles, KeyFormat format
 }
 
 void sortBlock(FragmentGrid::Block& block) { HWY_DYNAMIC_DISPATCH(SortBlock)(block); }
+
+BlockOrder orderOfBlock(const FragmentGrid::Block& block, const Tile& tile) { return HWY_DYNAMIC_DISPATCH(OrderOfBlock)(block, tile); }
 
 void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint64_t* nearest) {
   HWY_DYNAMIC_DISPATCH(CollectNearest)(triangles.data(), triangles.size(), format, rect, nearest);
@@ -62,7 +65,7 @@ void NearestGrid::clear() {
   for (Block& block : blocks_) {
     FragmentGrid::Block& kept = block.kept;
     if (kept.capacity != k_) {
-      kept.keys = std::make_unique_for_overwrite<std::uint64_t[]>(std::size_t{k_} * kBlockPixels);
+      kept.keys = std::make_unique_for_overwrite<std::uint64_t[]>(std::size_t{k_} * kBlockPixels + 1);
       kept.capacity = kept.used = k_;
     }
     std::fill_n(kept.keys.get() + std::size_t{k_ - 1} * kBlockPixels, kBlockPixels, kEmptyKey);
@@ -82,7 +85,7 @@ bool FragmentGrid::grow(Block& block) {
   const std::uint32_t capacity = std::max<std::uint32_t>(16, block.capacity * 2);
   const std::size_t layerBytes = kBlockPixels * sizeof(std::uint64_t);
   if (usedBytes_ + (capacity - block.capacity) * layerBytes > budgetBytes_) return false;
-  auto keys = std::make_unique_for_overwrite<std::uint64_t[]>(std::size_t{capacity} * kBlockPixels);
+  auto keys = std::make_unique_for_overwrite<std::uint64_t[]>(std::size_t{capacity} * kBlockPixels + 1);
   if (most > 0) std::memcpy(keys.get(), block.keys.get(), most * layerBytes);
   usedBytes_ += (capacity - block.capacity) * layerBytes;
   block.keys = std::move(keys);

@@ -28,7 +28,8 @@ struct TriangleSetup {
   std::int32_t a[3], b[3], c[3];
   std::uint8_t x0, y0, x1, y1;      // bounds of covered samples, inclusive
   std::uint32_t slot;
-  std::int32_t samples;             // about how many it covers
+  std::uint16_t samples;            // about how many it covers
+  std::uint16_t covered;            // EdgeBatch::covered
   double da, db, dc, lo, hi;
 };
 
@@ -36,16 +37,20 @@ inline constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};   // of depths of k
 
 struct KeyFormat {
   int depthBits = 40;               // slot bits are the rest of kKeyBits
+  std::uint64_t uncertainty = 0;    // bound of the error of a depth, key units, of every slot that is not coarse (tile.h)
   int slotBits() const { return kKeyBits - depthBits; }
   std::uint64_t depthOf(std::uint64_t key) const { return key >> slotBits(); }
   std::uint32_t slotOf(std::uint64_t key) const { return static_cast<std::uint32_t>(key & ((std::uint64_t{1} << slotBits()) - 1)); }
 };
 
+class Tile;
+struct TileSlot;
+
 // All fragments of the pixels of a tile, block by block, layer by layer.
 class FragmentGrid {
  public:
   struct Block {
-    std::unique_ptr<std::uint64_t[]> keys;     // [layer][64 pixels]
+    std::unique_ptr<std::uint64_t[]> keys;     // [layer][64 pixels], and one more that is read beside the last
     std::uint32_t capacity = 0;                // layers
     std::uint32_t used = 0;                    // layers that may be in use
     std::uint32_t counts[kBlockPixels] = {};   // fragments per pixel
@@ -56,8 +61,8 @@ class FragmentGrid {
   void clear();
   // Makes room for one more layer; false when the budget is spent.
   bool grow(Block& block);
-  Block& block(int index) { return blocks_[index]; }
-  const Block& block(int index) const { return blocks_[index]; }
+  Block& block(std::size_t index) { return blocks_[index]; }
+  const Block& block(std::size_t index) const { return blocks_[index]; }
   void setBudget(std::size_t bytes) { budgetBytes_ = bytes; }
 
  private:
@@ -77,6 +82,16 @@ bool collectFragments(std::span<const TriangleSetup> triangles, KeyFormat format
 
 // Sorts each pixel's fragments of a block, front to back.
 void sortBlock(FragmentGrid::Block& block);
+
+// What the keys of a sorted block tell of its pixels that have fragments, a bit each.
+struct BlockOrder {
+  std::uint64_t certain = 0;   // fragments whose depths are not certainly apart are of one plane class: coplanar
+  std::uint64_t coplanar = 0;  // certain, and some are
+  std::uint64_t repeats = 0;   // certain, the one before it in the row too, and both meet the same slots
+
+  BlockOrder without(std::uint64_t pixels) const { return {certain & ~pixels, coplanar & ~pixels, repeats & ~(pixels | pixels << 1)}; }
+};
+BlockOrder orderOfBlock(const FragmentGrid::Block& block, const Tile& tile);
 
 // The plain z-buffer: keeps the least key of each pixel, nearest[block][64], which the caller has filled with kEmptyKey.
 void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint64_t* nearest);
@@ -99,14 +114,12 @@ class NearestGrid {
 
   void clear();
   std::uint32_t k() const { return k_; }
-  Block& block(int index) { return blocks_[index]; }
+  Block& block(std::size_t index) { return blocks_[index]; }
 
  private:
   std::uint32_t k_;
   Block blocks_[kBlocksPerTile];
 };
-
-struct TileSlot;
 
 // What tells two keys' planes apart, and when they have to be.
 struct KeyDoubt {

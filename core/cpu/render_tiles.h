@@ -4,6 +4,7 @@
 // growing batches and left as soon as every pixel has had enough. The result does not depend on threads, splits or batches.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <limits>
 
@@ -68,6 +69,7 @@ class TileRenderer {
   TileCounts counts() const {
     TileCounts counts = counts_;
     counts.walk = walker_.counts();
+    counts.walk.coplanarPixels += coplanarPixels_;
     return counts;
   }
 
@@ -100,7 +102,7 @@ class TileRenderer {
     narrows_ = false;
     const BlockRect rect = wholeTile();
     if (tile_.coarse || fold_.needsWholeStack()) return drawRect(rect);
-    const KeyDoubt doubt{(2 * tile_.uncertainty + 2) << tile_.format.slotBits(), tile_.lastSlot(), tile_.slots.data()};
+    const KeyDoubt doubt{(2 * tile_.format.uncertainty + 2) << tile_.format.slotBits(), tile_.lastSlot(), tile_.slots.data()};
     nearest_.clear();
     // Met nearest first, most fragments turn back at once; of small triangles the order costs more than it saves.
     const double layers = tile_.layers();
@@ -130,7 +132,7 @@ class TileRenderer {
     const PixelStack stack{kept.keys.get() + p, kept.counts[p], kBlockPixels, tile_.format, tile_.slots.data()};
     const std::uint32_t last = stack.count - 1, planeClass = tile_.slots[stack.slot(last)].planeClass;
     const std::uint64_t depth = tile_.format.depthOf(stack.key(last));
-    for (std::uint32_t i = last; i-- > 0 && tile_.format.depthOf(stack.key(i)) + 2 * tile_.uncertainty >= depth;) {
+    for (std::uint32_t i = last; i-- > 0 && tile_.format.depthOf(stack.key(i)) + 2 * tile_.format.uncertainty >= depth;) {
       if (tile_.slots[stack.slot(i)].planeClass != planeClass) return true;
     }
     return false;
@@ -205,9 +207,20 @@ class TileRenderer {
     return window_.block();
   }
 
+  // Folds the pixels at once whose order the keys tell, if the fold knows how to.
+  void foldCertain(const FragmentGrid::Block& block, int b, int x, int y) {
+    if constexpr (requires { fold_.takesBlocks(); }) {
+      if (!fold_.takesBlocks()) return;
+      const BlockOrder order = orderOfBlock(block, tile_).without(done_[b]);
+      coplanarPixels_ += std::popcount(fold_.foldBlock(block, tile_, order, x, y));
+      done_[b] |= order.certain;
+    }
+  }
+
   bool foldBlock(FragmentGrid::Block& block, int b, std::uint64_t limit) {
     const int x = b % kBlocksPerSide * kBlockSize, y = b / kBlocksPerSide * kBlockSize;
     sortBlock(block);
+    if (limit == kNoLimit && !keepsNearest()) foldCertain(block, b, tile_.x0 + x, tile_.y0 + y);
     walker_.begin(tile_, limit);
     const int columns = std::min(kBlockSize, tile_.width - x), rows = std::min(kBlockSize, tile_.height - y);
     bool all = true;
@@ -243,6 +256,7 @@ class TileRenderer {
   BlockWindow window_;
   bool narrows_ = false;
   TileCounts counts_;
+  std::uint64_t coplanarPixels_ = 0;          // that the walker has not seen
 };
 
 // Draws all tiles; `makeFold` is called once per thread. The folds write disjoint pixels.

@@ -45,8 +45,8 @@ void Tile::begin(const Frame& frame, int index) {
   height = std::min(kTileSize, frame.view.height - y0);
   references_ = frame.bins.tile(index);
   objects.clear();
-  slots.clear();
-  setups.clear();
+  slots = {};
+  setups = {};
   nearest.clear();
   std::uint32_t end = 0;   // first primitive after the current object
   for (std::uint32_t i = 0; i < references_.size(); ++i) {
@@ -62,7 +62,15 @@ void Tile::begin(const Frame& frame, int index) {
 }
 
 void Tile::setUp(const Frame& frame) {
-  ranges_.clear();
+  const auto makeRoom = [&](auto& room) {
+    if (room.size() < references_.size()) room.resize(references_.size());
+  };
+  makeRoom(slotRoom_);
+  makeRoom(setupRoom_);
+  makeRoom(ranges_);
+  count_ = 0;
+  samples_ = 0;
+  depths_ = {};
   leastError_ = std::numeric_limits<double>::infinity();
   int count = 0;
   for (std::uint32_t i = 0; i < objects.size(); ++i) {
@@ -70,35 +78,37 @@ void Tile::setUp(const Frame& frame) {
     if (!object.keep) continue;
     object.range = {};
     object.mirrored = mirrors(frame.scene.objects()[object.object].worldFromObject);
+    const Source source{i, frame.scene.firstPrimitive(object.object), frame.scene.objects()[object.object].mesh.get(),
+                        frame.projection.vertices.data() + frame.projection.firstVertex[object.object], frame.planes.classesOfObject(object.object)};
     // Batches run on from object to object.
     for (std::uint32_t k = object.firstReference; k < object.lastReference; ++k) {
-      gather(frame, i, references_[k], count++);
+      gather(frame, source, references_[k], count++);
       if (count == kEdgeBatch) setUpBatch(frame, std::exchange(count, 0));
     }
   }
   setUpBatch(frame, count);
+  slots = {slotRoom_.data(), count_};
+  setups = {setupRoom_.data(), count_};
 }
 
 // Corners to place `at` of the batch.
-void Tile::gather(const Frame& frame, std::uint32_t objectIndex, std::uint32_t reference, int at) {
-  const std::uint32_t object = objects[objectIndex].object;
+inline void Tile::gather(const Frame& frame, const Source& source, std::uint32_t reference, int at) {
   glm::ivec2 p, q, r;
   std::uint32_t triangle;
   if (reference < kPrimitiveLimit) {
-    triangle = reference - frame.scene.firstPrimitive(object);
-    const glm::uvec3 t = frame.scene.objects()[object].mesh->triangles[triangle];
-    const glm::ivec2* vertices = frame.projection.vertices.data() + frame.projection.firstVertex[object];
-    p = vertices[t.x], q = vertices[t.y], r = vertices[t.z];
+    triangle = reference - source.firstPrimitive;
+    const glm::uvec3 t = source.mesh->triangles[triangle];
+    p = source.vertices[t.x], q = source.vertices[t.y], r = source.vertices[t.z];
   } else {
     const ClippedTriangle& piece = frame.bins.clipped[reference - kPrimitiveLimit];
-    triangle = piece.primitive - frame.scene.firstPrimitive(object);
+    triangle = piece.primitive - source.firstPrimitive;
     p = piece.corners[0], q = piece.corners[1], r = piece.corners[2];
   }
   edges_.px[at] = p.x, edges_.py[at] = p.y, edges_.qx[at] = q.x, edges_.qy[at] = q.y, edges_.rx[at] = r.x, edges_.ry[at] = r.y;
   // The class's plane is wanted soon, and rarely lies near the last one.
-  const std::uint32_t planeClass = frame.planes.classOf(object, frame.scene.objects()[object].mesh->facetOf(triangle));
+  const std::uint32_t planeClass = source.classes[source.mesh->facetOf(triangle)];
   __builtin_prefetch(&frame.depths[planeClass]);
-  gathered_[at] = {objectIndex, frame.scene.firstPrimitive(object) + triangle, planeClass};
+  gathered_[at] = {source.index, source.firstPrimitive + triangle, planeClass};
 }
 
 void Tile::setUpBatch(const Frame& frame, int count) {
@@ -110,38 +120,35 @@ void Tile::setUpBatch(const Frame& frame, int count) {
     if (edges_.side[i] == 0) continue;
     const Gathered& from = gathered_[i];
     TileObject& object = objects[from.object];
-    addEdges(i);
-    addDepth(frame.depths[from.planeClass], u, v, object);
-    TileSlot& slot = slots.emplace_back();
-    slot.primitive = from.primitive;
-    slot.planeClass = from.planeClass;
-    slot.object = from.object;
-    slot.side = object.mirrored ? -edges_.side[i] : edges_.side[i];
+    addDepth(addSetup(i), frame.depths[from.planeClass], u, v, object);
+    const std::int32_t side = object.mirrored ? -edges_.side[i] : edges_.side[i];
+    slotRoom_[count_++] = {from.primitive, from.planeClass, from.object, side, 0};
   }
 }
 
-void Tile::addEdges(int at) {
-  TriangleSetup& t = setups.emplace_back();
+inline TriangleSetup& Tile::addSetup(int at) {
+  TriangleSetup& t = setupRoom_[count_];
   for (int k = 0; k < 3; ++k) t.a[k] = edges_.a[k][at], t.b[k] = edges_.b[k][at], t.c[k] = edges_.c[k][at];
-  t.x0 = edges_.x0[at], t.y0 = edges_.y0[at], t.x1 = edges_.x1[at], t.y1 = edges_.y1[at];
-  t.samples = edges_.samples[at];
-  t.slot = static_cast<std::uint32_t>(slots.size());
+  t.x0 = static_cast<std::uint8_t>(edges_.x0[at]), t.y0 = static_cast<std::uint8_t>(edges_.y0[at]);
+  t.x1 = static_cast<std::uint8_t>(edges_.x1[at]), t.y1 = static_cast<std::uint8_t>(edges_.y1[at]);
+  t.samples = static_cast<std::uint16_t>(edges_.samples[at]);
+  t.covered = static_cast<std::uint16_t>(edges_.covered[at]);
+  t.slot = static_cast<std::uint32_t>(count_);
+  return t;
 }
 
-// The last setup's depth, in order values yet.
-void Tile::addDepth(const DepthPlane& plane, double u, double v, TileObject& object) {
-  TriangleSetup& t = setups.back();
-  t.da = plane.a;
-  t.db = plane.b;
-  t.dc = plane.a * u + (plane.b * v + plane.c);
-  t.lo = plane.lo;
-  t.hi = plane.hi;
-  const double small = t.dc + std::min(t.da * t.x0, t.da * t.x1) + std::min(t.db * t.y0, t.db * t.y1);
-  const double large = t.dc + std::max(t.da * t.x0, t.da * t.x1) + std::max(t.db * t.y0, t.db * t.y1);
-  const double error = plane.error;
-  const SetupRange& range = ranges_.emplace_back(SetupRange{std::clamp(small, t.lo, t.hi), std::clamp(large, t.lo, t.hi), error});
-  object.range.add(range.least - error, range.most + error);
+// Its depth, in order values yet.
+inline void Tile::addDepth(TriangleSetup& t, const DepthPlane& plane, double u, double v, TileObject& object) {
+  const double dc = plane.a * u + (plane.b * v + plane.c), lo = plane.lo, hi = plane.hi, error = plane.error;
+  t.da = plane.a, t.db = plane.b, t.dc = dc, t.lo = lo, t.hi = hi;
+  const double left = plane.a * t.x0, right = plane.a * t.x1, top = plane.b * t.y0, bottom = plane.b * t.y1;
+  const double least = std::clamp(dc + std::min(left, right) + std::min(top, bottom), lo, hi);
+  const double most = std::clamp(dc + std::max(left, right) + std::max(top, bottom), lo, hi);
+  ranges_[count_] = {least, most, error};
+  object.range.add(least - error, most + error);
   leastError_ = std::min(leastError_, error);
+  depths_.add(least, most);
+  samples_ += t.samples;
 }
 
 void Tile::rangesOfBlocks(std::vector<DepthRange>& ranges) const {
@@ -173,32 +180,38 @@ void Tile::rangesOfBlocks(std::vector<DepthRange>& ranges) const {
 }
 
 void Tile::finish(double farthest, bool decideAllExactly) {
+  const bool keepsAll = std::all_of(objects.begin(), objects.end(), [](const TileObject& object) { return object.keep; });
+  if (!keepsAll || farthest < std::numeric_limits<double>::infinity()) drop(farthest);
+  scaleDepths(decideAllExactly);
+}
+
+void Tile::drop(double farthest) {
   std::size_t kept = 0;
-  double least = std::numeric_limits<double>::infinity(), most = -least;
+  depths_ = {};
+  samples_ = 0;
   for (std::size_t i = 0; i < setups.size(); ++i) {
     const SetupRange& range = ranges_[i];
     if (!objects[slots[setups[i].slot].object].keep || range.least > farthest) continue;
-    least = std::min(least, range.least), most = std::max(most, range.most);
+    depths_.add(range.least, range.most);
+    samples_ += setups[i].samples;
     if (kept < i) setups[kept] = setups[i], ranges_[kept] = range;
     ++kept;
   }
-  setups.resize(kept);
-  ranges_.resize(kept);
-  scaleDepths(least, most, decideAllExactly);
+  setups = setups.first(kept);
 }
 
-void Tile::scaleDepths(double least, double most, bool decideAllExactly) {
+void Tile::scaleDepths(bool decideAllExactly) {
   const int slotBits = std::max(static_cast<int>(std::bit_width(slots.size())), kKeyBits - kMostDepthBits);
   format.depthBits = kKeyBits - slotBits;
   // A margin of 2^-8 of the range at both ends takes the rounding.
   const double units = std::ldexp(1.0, format.depthBits), margin = units / 256;
-  const double range = most - least;
+  const double range = depths_.most - depths_.least, least = depths_.least;
   // A range so small that rounding would fill thousands of key units gains nothing from a larger scale.
   const double limit = std::clamp(kFinestError / leastError_, 1e-200, 1e200);
   const double scale = std::min(range > 0 ? (units - 2 * margin) / range : 1.0, limit);
   const double shift = kBias + margin;
   // One bound for all but the coarse: then a gap between neighbours in sorted order parts everything before from everything after.
-  uncertainty = 0;
+  double common = 0;
   coarse = false;
   for (std::size_t i = 0; i < setups.size(); ++i) {
     TriangleSetup& t = setups[i];
@@ -208,18 +221,14 @@ void Tile::scaleDepths(double least, double most, bool decideAllExactly) {
     t.lo = std::max((t.lo - least) * scale, -margin) + shift;
     t.hi = std::min((t.hi - least) * scale, units - 2 * margin) + shift;
     const double error = ranges_[i].error * scale * 1.25 + kKeyRounding;
-    const std::uint64_t bound = decideAllExactly ? kMostUncertainty : roundedUp(std::min(error, double{kMostUncertainty}));
-    slots[t.slot].uncertainty = bound;
-    if (bound > kCoarse) coarse = true;
-    else uncertainty = std::max(uncertainty, bound);
+    if (error <= double{kCoarse} && !decideAllExactly) {
+      common = std::max(common, error);
+    } else {
+      coarse = true;
+      slots[t.slot].coarse = decideAllExactly ? kMostUncertainty : roundedUp(std::min(error, double{kMostUncertainty}));
+    }
   }
-  for (TileSlot& slot : slots) slot.uncertainty = std::max(slot.uncertainty, uncertainty);
-}
-
-double Tile::layers() const {
-  std::int64_t samples = 0;
-  for (const TriangleSetup& t : setups) samples += t.samples;
-  return static_cast<double>(samples) / (width * height);
+  format.uncertainty = roundedUp(common);
 }
 
 std::size_t Tile::setupsOfLayers(double layers) const {
@@ -241,17 +250,18 @@ void Tile::orderByDepth() {
     const TriangleSetup& t = setups[i];
     const double least = t.dc + std::min(t.da * t.x0, t.da * t.x1) + std::min(t.db * t.y0, t.db * t.y1);
     const auto depth = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(least, t.lo, t.hi) - kBias));
-    const std::uint64_t reach = slots[t.slot].uncertainty + 2;
+    const std::uint64_t reach = std::max(slots[t.slot].coarse, format.uncertainty) + 2;
     order_.push_back((depth > reach ? depth - reach : 0) << indexBits | i);
   }
   std::sort(order_.begin(), order_.end());
-  sorted_.clear();
+  sortedRoom_.clear();
   nearest.clear();
   for (const std::uint64_t o : order_) {
-    sorted_.push_back(setups[o & ((std::uint64_t{1} << indexBits) - 1)]);
+    sortedRoom_.push_back(setups[o & ((std::uint64_t{1} << indexBits) - 1)]);
     nearest.push_back(o >> indexBits);
   }
-  setups.swap(sorted_);
+  setupRoom_.swap(sortedRoom_);
+  setups = setupRoom_;
 }
 
 }  // namespace copeel::cpu

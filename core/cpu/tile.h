@@ -19,7 +19,7 @@ struct TileSlot {
   std::uint32_t planeClass;
   std::uint32_t object;          // index into Tile::objects
   std::int32_t side;             // +1 entered here (front-facing), -1 left here
-  std::uint64_t uncertainty;     // bound of the depth error, key units
+  std::uint64_t coarse;          // bound of the depth error, key units, where it is greater than kCoarse; else 0
 };
 
 // Order values (depth_planes.h) that triangles reach, their error bounds included; as made, of none.
@@ -36,6 +36,8 @@ struct TileObject {
   bool mirrored = false;                    // after setUp: its faces are turned inside out
   DepthRange range{};                       // after setUp: in the tile
 };
+
+inline constexpr std::uint64_t kCoarse = 4096;   // key units; below, all slots of a tile carry one common bound (KeyFormat)
 
 class Tile {
  public:
@@ -56,23 +58,29 @@ class Tile {
   int x0 = 0, y0 = 0;                       // of its first pixel
   int width = 0, height = 0;                // inside the image
   std::vector<TileObject> objects;          // ascending
-  std::vector<TileSlot> slots;              // ascending by primitive
-  std::vector<TriangleSetup> setups;
+  std::span<TileSlot> slots;                // ascending by primitive
+  std::span<TriangleSetup> setups;
   std::vector<std::uint64_t> nearest;       // after orderByDepth: lower bound of the depth of each setup and all after it
-  double layers() const;                    // about how many fragments a pixel has
+  double layers() const { return static_cast<double>(samples_) / (width * height); }   // about how many fragments a pixel has
   std::size_t setupsOfLayers(double layers) const;   // how many setups, from the first, make about so many
   KeyFormat format;
-  std::uint64_t uncertainty = 0;            // of every slot that is not coarse, key units
   bool coarse = false;                      // some slot is so uncertain that its neighbours in depth order may not be adjacent
 
-  static constexpr std::uint64_t kCoarse = 4096;   // key units; below, all slots of a tile carry one common bound
-
  private:
-  void gather(const Frame& frame, std::uint32_t objectIndex, std::uint32_t reference, int at);
+  // Of an object.
+  struct Source {
+    std::uint32_t index;                    // into objects
+    std::uint32_t firstPrimitive;
+    const Mesh* mesh;
+    const glm::ivec2* vertices;             // on the grid
+    const std::uint32_t* classes;           // of its facets
+  };
+  void gather(const Frame& frame, const Source& source, std::uint32_t reference, int at);
   void setUpBatch(const Frame& frame, int count);
-  void addEdges(int at);
-  void addDepth(const DepthPlane& plane, double u, double v, TileObject& object);
-  void scaleDepths(double least, double most, bool decideAllExactly);
+  TriangleSetup& addSetup(int at);
+  void addDepth(TriangleSetup& setup, const DepthPlane& plane, double u, double v, TileObject& object);
+  void drop(double farthest);
+  void scaleDepths(bool decideAllExactly);
 
   std::span<const std::uint32_t> references_;
   struct Gathered {
@@ -84,10 +92,15 @@ class Tile {
   struct SetupRange {
     double least, most, error;              // the bounds without the error
   };
+  // Room for all references, kept from tile to tile; so many are in use.
+  std::vector<TileSlot> slotRoom_;
+  std::vector<TriangleSetup> setupRoom_, sortedRoom_;
   std::vector<SetupRange> ranges_;          // order values of each setup in the tile
+  std::size_t count_ = 0;
+  std::int64_t samples_ = 0;                // of all setups
+  DepthRange depths_;                       // of all setups, without the error
   double leastError_ = 0;                   // of all slots
   std::vector<std::uint64_t> order_;        // of orderByDepth, kept for their memory
-  std::vector<TriangleSetup> sorted_;
 };
 
 }  // namespace copeel::cpu

@@ -8,14 +8,14 @@ void ExactStack::order(const PixelStack& stack, const ExactOrder& exact, int x, 
   groups_ = 0;
   nearestFrom_.assign(stack.count + 1, ~std::uint64_t{0});
   for (std::uint32_t i = stack.count; i-- > 0;) {
-    const std::uint64_t depth = stack.format.depthOf(stack.key(i)), uncertainty = stack.slots[stack.slot(i)].uncertainty;
+    const std::uint64_t depth = stack.format.depthOf(stack.key(i)), uncertainty = stack.uncertaintyOf(stack.slot(i));
     nearestFrom_[i] = std::min(nearestFrom_[i + 1], depth > uncertainty ? depth - uncertainty : 0);
   }
   for (std::uint32_t i = 0; i < stack.count;) {
     const std::uint32_t begin = i;
     std::uint64_t reach = 0;
     do {
-      reach = std::max(reach, stack.format.depthOf(stack.key(i)) + stack.slots[stack.slot(i)].uncertainty);
+      reach = std::max(reach, stack.format.depthOf(stack.key(i)) + stack.uncertaintyOf(stack.slot(i)));
       ++i;
     } while (i < stack.count && nearestFrom_[i] <= reach);
     orderCluster(stack, begin, i, exact, x, y, counts);
@@ -32,7 +32,7 @@ void ExactStack::orderCluster(const PixelStack& stack, std::uint32_t begin, std:
   classes_.clear();
   for (std::uint32_t i = begin; i < end; ++i) {
     const TileSlot& slot = stack.slots[stack.slot(i)];
-    classes_.push_back({slot.planeClass, stack.format.depthOf(stack.key(i)), slot.uncertainty});
+    classes_.push_back({slot.planeClass, stack.format.depthOf(stack.key(i)), stack.uncertaintyOf(stack.slot(i))});
   }
   std::sort(classes_.begin(), classes_.end(), [](const Class& a, const Class& b) { return a.planeClass < b.planeClass; });
   classes_.erase(std::unique(classes_.begin(), classes_.end(), [](const Class& a, const Class& b) { return a.planeClass == b.planeClass; }),

@@ -57,7 +57,7 @@ class Walker {
   // `limit`: fragments at or beyond this depth may be missing yet.
   void begin(const Tile& tile, std::uint64_t limit) {
     coarse_ = tile.coarse;
-    uncertainty_ = tile.uncertainty;
+    uncertainty_ = tile.format.uncertainty;
     limit_ = limit;
     remembers_ = false;
   }
@@ -76,7 +76,7 @@ class Walker {
  private:
   static bool hasCoarse(const PixelStack& stack) {
     for (std::uint32_t i = 0; i < stack.count; ++i) {
-      if (stack.slots[stack.slot(i)].uncertainty > Tile::kCoarse) return true;
+      if (stack.slots[stack.slot(i)].coarse) return true;
     }
     return false;
   }

@@ -1,8 +1,13 @@
 // What an application makes of a pixel. A fold is given the fragments of a pixel front to back, is told when a coplanar group is complete,
 // and may say "enough". One fold object serves one thread. A result depends on the triangles met and their grouping alone, not on the pixel or
 // the depths: neighbouring pixels with the same fragments are folded once.
+//
+// A fold that takesBlocks() also has foldBlock(block, tile, order, x, y), which folds at once the certain pixels of a block (kernels.h:
+// BlockOrder) and ends them: keys ascend, runs of equal depth are coplanar, slots ascending. x, y: the block's first pixel in the image. It returns
+// the pixels that met coplanar fragments.
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstdint>
 #include <span>
@@ -22,11 +27,13 @@ struct PixelStack {
 
   std::uint64_t key(std::uint32_t i) const { return keys[std::size_t{i} * stride]; }
   std::uint32_t slot(std::uint32_t i) const { return format.slotOf(key(i)); }
+  // Bound of the depth error of a slot, key units.
+  std::uint64_t uncertaintyOf(std::uint32_t slot) const { return std::max(slots[slot].coarse, format.uncertainty); }
   // Bounds of the true depth, in key units.
   cpu::DepthRange depth(std::uint32_t i) const {
     const std::uint64_t k = key(i);
     const auto depth = static_cast<double>(static_cast<std::int64_t>(format.depthOf(k)));
-    const auto uncertainty = static_cast<double>(static_cast<std::int64_t>(slots[format.slotOf(k)].uncertainty));
+    const auto uncertainty = static_cast<double>(static_cast<std::int64_t>(uncertaintyOf(format.slotOf(k))));
     return {depth - uncertainty, depth + uncertainty};
   }
 };

@@ -1,0 +1,19 @@
+// Dispatch; the code is in over_block-inl.h, compiled once per target.
+#include "core/fold/over_block.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/fold/over_block-inl.h"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "core/fold/over_block-inl.h"
+
+namespace copeel::fold {
+
+HWY_EXPORT(BlendBlock);
+
+std::uint64_t blendBlock(const OverBlock& from, const cpu::BlockOrder& order, BlendedPixel* out) {
+  return HWY_DYNAMIC_DISPATCH(BlendBlock)(from, order, out);
+}
+
+}  // namespace copeel::fold

@@ -1,0 +1,30 @@
+// The fold of transparency on a block of 8×8 pixels at once: core/fold/over.glsl's operations in its order, so the same bits, vectorised over the
+// channels with run-time dispatch. For blocks whose keys are sorted and tell the order of their pixels.
+#pragma once
+
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "core/cpu/kernels.h"
+
+namespace copeel::fold {
+
+struct BlendedPixel {
+  float color[4];       // 0 … 255 over the background; the last is undefined
+  std::uint32_t levels;   // of 8 bits: red in the lowest
+};
+
+struct OverBlock {
+  const cpu::FragmentGrid::Block& block;
+  cpu::KeyFormat format;
+  const glm::vec4* colors;   // per slot, 0 … 255 and alpha
+  glm::vec3 background;      // 0 … 255
+  bool mayEnd;               // some colour is opaque: what lies behind it is not met
+};
+
+// Blends the pixels that have a bit in `order.certain`. Returns those that meet coplanar fragments.
+std::uint64_t blendBlock(const OverBlock& from, const cpu::BlockOrder& order, BlendedPixel* out);
+
+}  // namespace copeel::fold
