@@ -15,6 +15,7 @@
 #include "core/cpu/render_nearest.h"
 #include "core/cpu/render_tiles.h"
 #include "core/formats/read_mesh.h"
+#include "core/image/filled.h"
 #include "core/parallel.h"
 #include "core/scene/sample_offset.h"
 
@@ -227,7 +228,7 @@ class FrameSink : public PixelSink {
   Image<glm::vec3>* sum_;
   Image<Shown>* shown_;
   const View* view_ = nullptr;
-  std::vector<DepthPlane> depths_;
+  DepthPlanes depths_;
 };
 
 }  // namespace
@@ -281,12 +282,12 @@ Frame Renderer::draw(const View& view) {
   state.stats.passes = 0;
   Frame frame;
   const std::array<double, 3>& b = options.scheme.background;
-  frame.color = Image<Rgb8>(view.width, view.height, toRgb8({b[0], b[1], b[2]}));
-  if (options.wantDepth) frame.depth = Image<float>(view.width, view.height, std::numeric_limits<float>::infinity());
   if (options.wantIds) frame.ids = Image<std::uint16_t>(view.width, view.height);
   Image<Shown> shown;
   if (options.edges) shown = Image<Shown>(view.width, view.height);
   state.threads->execute([&] {
+    frame.color = filled(view.width, view.height, toRgb8({b[0], b[1], b[2]}));
+    if (options.wantDepth) frame.depth = filled(view.width, view.height, std::numeric_limits<float>::infinity());
     // Depth, ids and edges are those of the pixel's centre.
     if (options.samples <= 1 || options.wantDepth || options.wantIds || options.edges) {
       FrameSink sink(frame, *state.look, nullptr, options.edges ? &shown : nullptr);

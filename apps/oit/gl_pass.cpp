@@ -70,7 +70,7 @@ void GlPass::draw(const View& view, const fold::OverTables& tables, const glm::v
   }
 
   const std::vector<std::uint32_t> words = state.renderer.result();
-  const std::vector<DepthPlane> depths = targets.depth ? depthPlanes(state.scene, state.planes, view) : std::vector<DepthPlane>();
+  const DepthPlanes depths = targets.depth ? depthPlanes(state.scene, state.planes, view) : DepthPlanes();
   const auto width = static_cast<std::size_t>(view.width);
   parallelFor(words.size() / kOverResultWords, 1 << 12, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i) {

@@ -13,26 +13,11 @@
 #include "core/cpu/render_nearest.h"
 #include "core/cpu/render_tiles.h"
 #include "core/error.h"
+#include "core/image/filled.h"
 #include "core/parallel.h"
 #include "core/scene/sample_offset.h"
 
 namespace copeel::oit {
-namespace {
-
-// An image of one value. Written in parallel: a frame of a small model takes no longer than such a fill by one thread.
-template <class T>
-void clear(Image<T>& image, const View& view, const T& value) {
-  image = Image<T>(view.width, view.height);
-  parallelFor(image.pixels.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
-    // Doubling copies are faster than a loop over values of three bytes.
-    T* const first = image.pixels.data() + begin;
-    *first = value;
-    for (std::size_t done = 1, count = end - begin; done < count; done *= 2) std::copy_n(first, std::min(done, count - done), first + done);
-  });
-}
-
-}  // namespace
-
 struct Renderer::State {
   RenderOptions options;
   Scene scene;
@@ -119,7 +104,7 @@ void Renderer::State::drawSamples(const View& view, Frame& frame) {
   for (int i = 0; i < options.samples; ++i) {
     View shifted = view;
     shifted.offset = sampleOffset(i, options.samples);
-    clear(sample, view, background());
+    sample = filled(view.width, view.height, background());
     drawPass(shifted, targets);
     forEachPixel([&](std::size_t p) { sum.pixels[p] += sample.pixels[p]; });
   }
@@ -167,11 +152,11 @@ Frame Renderer::draw(const View& view) {
   state.threads->execute([&] {
     const auto want = [&](bool wanted, auto& image, auto*& target, const auto& empty) {
       if (!wanted) return;
-      clear(image, view, empty);
+      image = filled(view.width, view.height, empty);
       target = &image;
     };
     const bool once = options.samples <= 1;
-    clear(frame.color, view, toRgb8(state.background()));
+    frame.color = filled(view.width, view.height, toRgb8(state.background()));
     want(options.wantDepth, frame.depth, targets.depth, std::numeric_limits<float>::infinity());
     want(options.wantIds, frame.ids, targets.ids, std::uint16_t{0});
     want(options.wantLayers, frame.layers, targets.layers, std::uint16_t{0});

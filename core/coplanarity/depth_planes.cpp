@@ -30,14 +30,14 @@ double nearDistance(const Scene& scene, const View& view) {
   return std::max(kNearPerScene * reach, kLeastNear);
 }
 
-std::vector<DepthPlane> depthPlanes(const Scene& scene, const PlaneClasses& planes, const View& view) {
+DepthPlanes depthPlanes(const Scene& scene, const PlaneClasses& planes, const View& view) {
   const DepthView setup{view,
                         nearDistance(scene, view),
                         view.width * 0.5 + 1,
                         view.height * 0.5 + 1,
                         glm::length(view.right),
                         glm::length(view.down)};
-  std::vector<DepthPlane> result(planes.classes().size());
+  DepthPlanes result(planes.classes().size());
   parallelFor(result.size(), 1024, [&](std::size_t begin, std::size_t end) {
     HWY_DYNAMIC_DISPATCH(SetDepthPlanes)(scene, planes.classes().data() + begin, end - begin, setup, result.data() + begin);
   });

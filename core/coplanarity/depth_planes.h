@@ -7,23 +7,25 @@
 #pragma once
 
 #include <algorithm>
-#include <vector>
 
 #include "core/coplanarity/plane_classes.h"
 #include "core/scene/view.h"
+#include "core/uninitialized.h"
 
 namespace copeel {
 
 struct DepthPlane {
-  double a = 0, b = 0, c = 0;   // s = a·u + b·v + c, with u, v of view.h
-  float lo = 0, hi = 0;         // range of the class's faces: beyond a silhouette s is held to it
-  float error = 0;              // bound of |s - true s| within the image; +inf where the plane holds the eye
+  double a, b, c;   // s = a·u + b·v + c, with u, v of view.h
+  float lo, hi;     // range of the class's faces: beyond a silhouette s is held to it
+  float error;      // bound of |s - true s| within the image; +inf where the plane holds the eye
 };
+
+using DepthPlanes = UninitializedVector<DepthPlane>;   // per plane class
 
 // Nearest distance along the axis that is drawn in perspective; what lies between the eye and it counts as passed.
 double nearDistance(const Scene& scene, const View& view);
 
-std::vector<DepthPlane> depthPlanes(const Scene& scene, const PlaneClasses& planes, const View& view);
+DepthPlanes depthPlanes(const Scene& scene, const PlaneClasses& planes, const View& view);
 
 // Distance along the view axis from the order value.
 inline double distanceOf(double s, const View& view) { return view.perspective ? -1.0 / s : s; }

@@ -13,7 +13,7 @@ namespace copeel {
 
 class ExactOrder {
  public:
-  ExactOrder(const Scene& scene, const PlaneClasses& planes, const std::vector<DepthPlane>& depths, const View& view)
+  ExactOrder(const Scene& scene, const PlaneClasses& planes, const DepthPlanes& depths, const View& view)
       : scene_(scene), planes_(planes), depths_(depths), view_(view) {}
 
   // -1, 0, +1: class p is nearer than, level with or farther than class q at the sample of pixel (x, y).
@@ -22,7 +22,7 @@ class ExactOrder {
  private:
   const Scene& scene_;
   const PlaneClasses& planes_;
-  const std::vector<DepthPlane>& depths_;
+  const DepthPlanes& depths_;
   const View& view_;
 };
 

@@ -14,7 +14,7 @@ namespace copeel::cpu {
 struct Bins {
   int columns = 0, rows = 0;                  // tiles
   std::vector<std::uint64_t> first;           // per tile, and the end
-  std::vector<std::uint32_t> references;
+  UninitializedVector<std::uint32_t> references;
   std::vector<ClippedTriangle> clipped;
 
   std::span<const std::uint32_t> tile(int index) const {

@@ -14,7 +14,7 @@ struct Frame {
   const Scene& scene;
   const PlaneClasses& planes;
   const View& view;
-  std::vector<DepthPlane> depths;       // per plane class
+  DepthPlanes depths;       // per plane class
   Projection projection;
   Bins bins;
 

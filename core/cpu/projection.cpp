@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <tuple>
 
@@ -18,6 +19,7 @@ namespace {
 constexpr int kCoordinateBits = 24;   // extent of the grid: differences below 2^24 keep edge functions of a tile within 31 bits
 constexpr int kMostBits = 12;
 constexpr double kMarginPx = 64;
+constexpr std::size_t kGrain = 4096;   // vertices, for parallel loops
 
 // Camera coordinates: (x, y) pixels from the view axis at unit distance (perspective) or anywhere, z along the axis.
 struct Camera {
@@ -79,34 +81,58 @@ Grid gridFor(const View& view) {
   return grid;
 }
 
+namespace {
+
+// True where the object before is the same mesh in the same place.
+bool repeats(const Scene& scene, std::size_t object) {
+  if (object == 0) return false;
+  const Object &before = scene.objects()[object - 1], &here = scene.objects()[object];
+  return here.mesh == before.mesh && here.worldFromObject == before.worldFromObject;
+}
+
+}  // namespace
+
 Projection project(const Scene& scene, const View& view) {
   Projection result;
   result.grid = gridFor(view);
-  result.reachesEye.assign(scene.objects().size(), 0);
+  const std::size_t objectCount = scene.objects().size();
+  result.reachesEye.assign(objectCount, 0);
   std::uint64_t count = 0;
-  for (const Object& object : scene.objects()) {
-    result.firstVertex.push_back(count);
-    count += object.mesh->vertices.size();
+  for (std::size_t object = 0; object < objectCount; ++object) {
+    const bool shares = repeats(scene, object);
+    result.firstVertex.push_back(shares ? result.firstVertex.back() : count);
+    if (!shares) count += scene.objects()[object].mesh->vertices.size();
   }
   result.vertices.resize(count);
 
   const Camera camera(view);
   const Frame frame = frameOf(view, result.grid);
   const double nearest = nearDistance(scene, view);
-  parallelFor(scene.objects().size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t object = begin; object != end; ++object) {
-      const Object& placed = scene.objects()[object];
-      glm::ivec2* out = result.vertices.data() + result.firstVertex[object];
-      for (const glm::dvec3& vertex : placed.mesh->vertices) {
-        const glm::dvec3 p = camera(transformPoint(placed.worldFromObject, vertex));
-        const bool behind = view.perspective && !(p.z >= nearest);
-        if (behind) result.reachesEye[object] = 1;
-        const double w = camera.weight(p), u = p.x / w, v = p.y / w;
-        const bool fits = !behind && std::abs(u) <= frame.limitX && std::abs(v) <= frame.limitY;
-        *out++ = fits ? snap(u, v, frame) : glm::ivec2(kOffGrid, 0);
-      }
+  const auto projectVertex = [&](const Object& object, const glm::dvec3& vertex, std::atomic_ref<std::uint8_t> reachesEye) {
+    const glm::dvec3 p = camera(transformPoint(object.worldFromObject, vertex));
+    const bool behind = view.perspective && !(p.z >= nearest);
+    if (behind) reachesEye.store(1, std::memory_order_relaxed);
+    const double w = camera.weight(p), u = p.x / w, v = p.y / w;
+    const bool fits = !behind && std::abs(u) <= frame.limitX && std::abs(v) <= frame.limitY;
+    return fits ? snap(u, v, frame) : glm::ivec2(kOffGrid, 0);
+  };
+  parallelFor(objectCount, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i) {
+      if (repeats(scene, i)) continue;
+      const Object& object = scene.objects()[i];
+      glm::ivec2* const out = result.vertices.data() + result.firstVertex[i];
+      const std::size_t vertexCount = object.mesh->vertices.size();
+      const auto projectRange = [&](std::size_t first, std::size_t last) {
+        const std::atomic_ref<std::uint8_t> reachesEye(result.reachesEye[i]);
+        for (std::size_t v = first; v != last; ++v) out[v] = projectVertex(object, object.mesh->vertices[v], reachesEye);
+      };
+      if (vertexCount <= kGrain) projectRange(0, vertexCount);
+      else parallelFor(vertexCount, kGrain, projectRange);
     }
   });
+  for (std::size_t i = 1; i < objectCount; ++i) {
+    if (repeats(scene, i)) result.reachesEye[i] = result.reachesEye[i - 1];
+  }
   return result;
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/scene/scene.h"
 #include "core/scene/view.h"
+#include "core/uninitialized.h"
 
 namespace copeel::cpu {
 
@@ -33,8 +34,8 @@ inline constexpr std::int32_t kOffGrid = INT32_MIN;
 
 struct Projection {
   Grid grid;
-  std::vector<std::uint64_t> firstVertex;      // per object, into vertices
-  std::vector<glm::ivec2> vertices;            // grid coordinates, x = kOffGrid where they do not fit
+  std::vector<std::uint64_t> firstVertex;      // per object, into vertices; a mesh placed again where the object before has it shares that one's
+  UninitializedVector<glm::ivec2> vertices;    // grid coordinates, x = kOffGrid where they do not fit
   std::vector<std::uint8_t> reachesEye;        // per object: it has vertices nearer than nearDistance (perspective only)
 };
 

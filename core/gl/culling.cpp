@@ -50,7 +50,7 @@ std::pair<double, double> orderRange(const DepthPlane& plane, const ObjectBox& b
 
 }  // namespace
 
-std::vector<ObjectBox> objectBoxes(const Scene& scene, const PlaneClasses& planes, const View& view, const std::vector<DepthPlane>& depths,
+std::vector<ObjectBox> objectBoxes(const Scene& scene, const PlaneClasses& planes, const View& view, const DepthPlanes& depths,
                                    bool hardwareDepth) {
   const DepthScale scale = depthScale(depths, view.perspective);
   const double nearest = nearDistance(scene, view);

@@ -21,7 +21,7 @@ struct ObjectBox {
   std::uint32_t leastKey = 0, greatestKey = 0;
 };
 
-std::vector<ObjectBox> objectBoxes(const Scene& scene, const PlaneClasses& planes, const View& view, const std::vector<DepthPlane>& depths,
+std::vector<ObjectBox> objectBoxes(const Scene& scene, const PlaneClasses& planes, const View& view, const DepthPlanes& depths,
                                    bool hardwareDepth);
 
 class Culling {

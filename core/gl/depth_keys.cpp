@@ -8,7 +8,7 @@
 
 namespace copeel::gl {
 
-DepthScale depthScale(const std::vector<DepthPlane>& depths, bool perspective) {
+DepthScale depthScale(const DepthPlanes& depths, bool perspective) {
   double least = HUGE_VAL, most = -HUGE_VAL;
   for (const DepthPlane& plane : depths) {
     least = std::min(least, double(plane.lo));

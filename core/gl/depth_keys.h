@@ -15,7 +15,7 @@ struct DepthScale {
   std::uint32_t keys = 1;      // that are in use
 };
 
-DepthScale depthScale(const std::vector<DepthPlane>& depths, bool perspective);
+DepthScale depthScale(const DepthPlanes& depths, bool perspective);
 
 // The key of an order value that lies in the range of the view's planes; it never falls where the value grows.
 std::uint32_t keyOf(const DepthScale& scale, double orderValue);

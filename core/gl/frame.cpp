@@ -95,7 +95,7 @@ Frame::Frame(const SceneBuffers& scene, Programs& programs, DepthSource depthSou
   query_ = Query(name);
 }
 
-void Frame::setView(const View& view, const std::vector<DepthPlane>& depths) {
+void Frame::setView(const View& view, const DepthPlanes& depths) {
   view_ = view;
   depths_ = depths;
   culling_.reset();
@@ -150,7 +150,7 @@ void Frame::project() {
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void Frame::writeFrameBlock(const std::vector<DepthPlane>& depths) {
+void Frame::writeFrameBlock(const DepthPlanes& depths) {
   const DepthScale scale = depthScale(depths, view_.perspective);
   FrameBlock block{};
   block.center = glm::dvec2(0.5 * width_, 0.5 * height_) - 0.5 - view_.offset;

@@ -52,7 +52,7 @@ class Frame {
   Frame(const SceneBuffers& scene, Programs& programs, DepthSource depthSource);
 
   // Projects the scene. `depths` are those of the view.
-  void setView(const View& view, const std::vector<DepthPlane>& depths);
+  void setView(const View& view, const DepthPlanes& depths);
   void setFold(const FoldSource& fold);   // throws Error{Machine} when its state and results outgrow kMostFoldBytes
 
   int width() const { return width_; }
@@ -132,13 +132,13 @@ class Frame {
  private:
   void makeTargets();
   void project();
-  void writeFrameBlock(const std::vector<DepthPlane>& depths);
+  void writeFrameBlock(const DepthPlanes& depths);
 
   const SceneBuffers& scene_;
   Programs& programs_;
   DepthSource depthSource_;
   View view_;
-  std::vector<DepthPlane> depths_;
+  DepthPlanes depths_;
   FoldSource fold_;
   int width_ = 0, height_ = 0;
   Buffer clip_, frameBlock_, planes_, states_, results_, opaque_;

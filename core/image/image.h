@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include <glm/vec3.hpp>
+
+#include "core/uninitialized.h"
 
 namespace copeel {
 
@@ -14,16 +15,23 @@ template <class T>
 struct Image {
   int width = 0;
   int height = 0;
-  std::vector<T> pixels;
+  UninitializedVector<T> pixels;
 
   Image() = default;
   Image(int w, int h, T fill = T{}) : width(w), height(h), pixels(static_cast<std::size_t>(w) * h, fill) {}
+  // To be written whole.
+  static Image uninitialized(int w, int h) {
+    Image image;
+    image.width = w, image.height = h;
+    image.pixels.resize(static_cast<std::size_t>(w) * h);
+    return image;
+  }
   T& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * width + x]; }
   const T& at(int x, int y) const { return pixels[static_cast<std::size_t>(y) * width + x]; }
 };
 
 struct Rgb8 {
-  std::uint8_t r = 0, g = 0, b = 0;
+  std::uint8_t r, g, b;
   friend bool operator==(const Rgb8&, const Rgb8&) = default;
 };
 

@@ -43,6 +43,7 @@ class Machine : public ProgramTest {
 };
 
 TEST_F(Machine, WithoutLibEgl) {
+  if (kHasSanitizer) GTEST_SKIP() << "the sanitizer has to be loaded first";
   const Environment preload("LD_PRELOAD", COPEEL_NO_EGL);
   expectNoGl();
 }
@@ -63,6 +64,7 @@ TEST_F(Machine, WithAnOldGl) {
 
 // Whatever is not enough is said; what is enough draws the same picture. Drivers that are denied memory would end the program.
 TEST_F(Machine, LittleMemory) {
+  if (kHasSanitizer) GTEST_SKIP() << kPastAnyLimit;
   ASSERT_EQ(draw({"--backend", "gl"}).exitCode, 0);
   const auto expected = readPng((folder_ / "a.png").string()).pixels;
   int enough = 0;
@@ -83,6 +85,7 @@ TEST_F(Machine, LittleMemory) {
 
 // 64 x 48 pixels with 220 bytes of state take 0.7 MB of these 20; 2 million fragments want 25 for lists.
 TEST_F(Machine, WhatFindsNoRoomIsSaid) {
+  if (kHasSanitizer) GTEST_SKIP() << kPastAnyLimit;
   write("deep.obj", [] {
     std::string text = "v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\n";
     for (int i = 0; i < 700; ++i) text += "f 1 2 3 4\n";

@@ -74,7 +74,7 @@ TEST_F(Oit, AMissingLibraryIsAWarning) {
 
 TEST_F(Oit, WritesEverythingItIsAskedFor) {
   middle({"green.obj", "plain.obj", "plain.obj:alpha=1", "--depth", "a.pfm", "--ids", "a.pgm", "--layers", "l.pgm", "--coplanar", "c.pgm", "--stats", "a.json",
-          "--samples", "4", "--frames", "3", "--threads", "2", "--memory", "2G"});
+          "--samples", "4", "--frames", "3", "--threads", "2", "--memory", kAmpleMemory});
   const auto stats = nlohmann::json::parse(contentOf(folder_ / "a.json"));
   EXPECT_EQ(stats["leaves"], 3);
   EXPECT_EQ(stats["plane_classes"], 1);

@@ -17,11 +17,6 @@ namespace {
 
 using Output = ProgramTest;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kHasSanitizer = true;
-#else
-constexpr bool kHasSanitizer = false;
-#endif
 using Words = std::vector<std::string>;
 
 TEST_F(Output, IsNamedAfterTheInputInTheCurrentFolder) {
@@ -42,7 +37,7 @@ TEST_F(Output, NamesWithBlanksUtf8QuotesAndDashes) {
 
 // Reading, too: a text of 4 MB becomes a tape of some 14 MB, and each binary STL of 10^5 triangles a mesh of 8 MB.
 TEST_F(Output, MemoryBeyondTheLimitIsTheMachinesLimit) {
-  if (kHasSanitizer) GTEST_SKIP() << "the sanitizer's own memory is past any limit";
+  if (kHasSanitizer) GTEST_SKIP() << kPastAnyLimit;
   std::string text = "group() {\n";
   for (int i = 0; i < 50000; ++i) text += "multmatrix([[1,0,0," + std::to_string(2 * i) + "],[0,1,0,1],[0,0,1,1],[0,0,0,1]]) { cube(1); }\n";
   write("long.csg", text + "}\n");
@@ -60,7 +55,7 @@ TEST_F(Output, MemoryBeyondTheLimitIsTheMachinesLimit) {
     expectFailure(outcome, 3);
     EXPECT_NE(outcome.standardError.find("not enough memory"), std::string::npos) << outcome.standardError;
   }
-  EXPECT_EQ(run({"csg", "long.csg", "--memory", "2G", "--imgsize", "16,16"}).exitCode, 0);
+  EXPECT_EQ(run({"csg", "long.csg", "--memory", kAmpleMemory, "--imgsize", "16,16"}).exitCode, 0);
   EXPECT_EQ(files(), (Words{"large.stl", "long.csg", "long.png", "part.csg"}));
 }
 
@@ -269,7 +264,7 @@ TEST_F(Output, AnInputMayBeAPipe) {
 }
 
 TEST_F(Output, TooLittleMemoryIsExitThree) {
-  if (kHasSanitizer) GTEST_SKIP() << "the sanitizer's own memory is past any limit";
+  if (kHasSanitizer) GTEST_SKIP() << kPastAnyLimit;
   expectFailure(run({"csg", "part.csg", "--imgsize", "16384,16384", "--memory", "64M"}), 3);
   EXPECT_EQ(files(), Words{"part.csg"});
 }

@@ -10,6 +10,15 @@
 
 namespace copeel {
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kHasSanitizer = true;
+#else
+inline constexpr bool kHasSanitizer = false;
+#endif
+// A sanitizer maps terabytes, which count as data.
+inline constexpr const char* kPastAnyLimit = "the sanitizer's own memory is past any limit";
+inline constexpr const char* kAmpleMemory = kHasSanitizer ? "1000000G" : "2G";
+
 struct Outcome {
   int exitCode = -1;   // -1: ended by a signal
   int signal = 0;

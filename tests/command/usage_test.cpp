@@ -131,7 +131,7 @@ TEST_F(Usage, MoreThreadsThanCoresAreNothingToWarnOf) {
 
 TEST_F(Usage, EveryOptionTogether) {
   const Outcome outcome = run({"csg", "part.csg", "-o", "a.png", "--imgsize", "64, 48", "--camera=0,0,0,+55,0,2.5e1,140", "--viewall", "--autocenter",
-                               "--projection", "ortho", "--backend", "cpu", "--method", "tile", "--threads", "2", "--memory", "2G", "--samples", "4",
+                               "--projection", "ortho", "--backend", "cpu", "--method", "tile", "--threads", "2", "--memory", kAmpleMemory, "--samples", "4",
                                "--coplanar-tolerance", "1e-7", "--section", "x=10", "--section", "-z=-5", "--inside", "positive", "--colorscheme",
                                "tomorrow night", "--background", "#fff", "--shading", "none", "--depth", "a.pfm", "--ids", "a.pgm", "--stats", "a.json",
                                "--frames", "3", "--quiet"});

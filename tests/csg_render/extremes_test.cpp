@@ -24,7 +24,9 @@ TEST(Extremes, scenesOfAnySizeAreDrawn) {
       const View view = lookAt(glm::dvec3(3, 2, 5) * size, {0, 0, 0}, 17, 17, perspective ? 0.05 : 0.2 * size, perspective);
       SCOPED_TRACE(size);
       expectNoNan(model, view);
-      if (size > 1e-20) EXPECT_NE(draw(model, view).frame.ids.at(8, 8), 0);
+      if (size > 1e-20) {
+        EXPECT_NE(draw(model, view).frame.ids.at(8, 8), 0);
+      }
     }
   }
 }

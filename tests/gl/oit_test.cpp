@@ -131,8 +131,8 @@ TEST(GlOit, aMeshOfFourMillionVertices) {
     oit::RenderOptions options;
     options.method = findMethod("ll");
     options.wantLayers = true;
-    const MeshPointer none = share(Mesh{});
-    return oit::Renderer({{none}, {none}, {share(large), {200, 30, 30, 0.5}, {}, glm::dmat4(1.0)}, {none}}, options).draw(view);
+    const oit::Part none{share(Mesh{}), {}, {}, glm::dmat4(1.0)};
+    return oit::Renderer({none, none, {share(large), {200, 30, 30, 0.5}, {}, glm::dmat4(1.0)}, none}, options).draw(view);
   };
   const oit::Frame small = drawn(0), large = drawn(4'200'000);
   EXPECT_EQ(large.layers.at(10, 10), 1);

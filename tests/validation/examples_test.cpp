@@ -49,7 +49,7 @@ TEST_P(Examples, Depth_is_exact_off_edges) {
   std::printf("%zu leaves, %zu triangles%s\n", model.leaves.size(), triangles, truth ? ", also against CGAL" : "");
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Examples, testing::ValuesIn(examples()), [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(All, Examples, testing::ValuesIn(examples()), [](const auto& example) { return example.param; });
 
 }  // namespace
 }  // namespace copeel::validation

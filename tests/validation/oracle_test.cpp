@@ -50,7 +50,9 @@ TEST(Oracle, A_box_has_the_depth_that_slabs_give) {
         const double expected = enterBox(originOf(view, ray), directionOf(view, ray), low, high);
         const std::optional<Seen> seen = oracle.see(ray);
         ASSERT_EQ(seen.has_value(), expected < kInfinity) << x << ", " << y;
-        if (seen) ASSERT_NEAR(seen->depth, expected, 1e-12 * expected);
+        if (seen) {
+          ASSERT_NEAR(seen->depth, expected, 1e-12 * expected);
+        }
       }
     }
   }
