@@ -485,6 +485,41 @@ HWY_ATTR BlockOrder OrderOfBlock(const FragmentGrid::Block& block, const Tile& t
   return order;
 }
 
+// Every layer of the block has one slot.
+HWY_INLINE HWY_ATTR bool hasOneSlot(const std::uint64_t* keys, std::uint64_t slotMask) {
+  const U64 u;
+  const auto first = hn::Set(u, keys[0]);
+  auto differs = hn::Zero(u);
+  for (std::size_t p = 0; p < kBlockPixels; p += hn::Lanes(u)) differs = hn::Or(differs, hn::Xor(hn::LoadU(u, keys + p), first));
+  return hn::AllTrue(u, hn::Eq(hn::And(differs, hn::Set(u, slotMask)), hn::Zero(u)));
+}
+
+HWY_ATTR bool SameStacks(const FragmentGrid::Block& block, const Tile& tile) {
+  constexpr std::uint32_t kMostLayers = 16;   // with more, few blocks are alike
+  const hn::CappedTag<std::uint32_t, kBlockSize> d;
+  const std::uint32_t count = block.counts[0];
+  if (count == 0 || count > kMostLayers) return false;
+  auto differs = hn::Zero(d);
+  for (std::size_t p = 0; p < kBlockPixels; p += hn::Lanes(d)) differs = hn::Or(differs, hn::Xor(hn::LoadU(d, block.counts + p), hn::Set(d, count)));
+  if (!hn::AllTrue(d, hn::Eq(differs, hn::Zero(d)))) return false;
+
+  const KeyFormat format = tile.format;
+  const TileSlot* before = nullptr;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint64_t* keys = block.keys.get() + std::size_t{i} * kBlockPixels;
+    if (!hasOneSlot(keys, (std::uint64_t{1} << format.slotBits()) - 1)) return false;
+    const TileSlot& slot = tile.slots[format.slotOf(keys[0])];
+    if (slot.coarse) return false;
+    if (before && before->planeClass != slot.planeClass) {
+      for (int row = 0; row < kBlockSize; ++row) {
+        if (closeLanes(keys - kBlockPixels + row * kBlockSize, format, 2 * format.uncertainty)) return false;
+      }
+    }
+    before = &slot;
+  }
+  return true;
+}
+
 const char* SimdName() { return hwy::TargetName(HWY_TARGET); }
 
 }  // namespace HWY_NAMESPACE

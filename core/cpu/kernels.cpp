@@ -20,6 +20,7 @@ namespace copeel::cpu {
 HWY_EXPORT(CollectFragments);
 HWY_EXPORT(SortBlock);
 HWY_EXPORT(OrderOfBlock);
+HWY_EXPORT(SameStacks);
 HWY_EXPORT(CollectNearest);
 HWY_EXPORT(CollectKNearest);
 HWY_EXPORT(SimdName);
@@ -32,6 +33,8 @@ bool collectFragments(std::span<const TriangleSetup> triangles, KeyFormat format
 void sortBlock(FragmentGrid::Block& block) { HWY_DYNAMIC_DISPATCH(SortBlock)(block); }
 
 BlockOrder orderOfBlock(const FragmentGrid::Block& block, const Tile& tile) { return HWY_DYNAMIC_DISPATCH(OrderOfBlock)(block, tile); }
+
+bool sameStacks(const FragmentGrid::Block& block, const Tile& tile) { return HWY_DYNAMIC_DISPATCH(SameStacks)(block, tile); }
 
 void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint64_t* nearest) {
   HWY_DYNAMIC_DISPATCH(CollectNearest)(triangles.data(), triangles.size(), format, rect, nearest);

@@ -93,6 +93,9 @@ struct BlockOrder {
 };
 BlockOrder orderOfBlock(const FragmentGrid::Block& block, const Tile& tile);
 
+// True where all pixels of a sorted block certainly meet the same slots in the same order, as inside large faces.
+bool sameStacks(const FragmentGrid::Block& block, const Tile& tile);
+
 // The plain z-buffer: keeps the least key of each pixel, nearest[block][64], which the caller has filled with kEmptyKey.
 void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint64_t* nearest);
 

@@ -218,11 +218,13 @@ class TileRenderer {
   }
 
   bool foldBlock(FragmentGrid::Block& block, int b, std::uint64_t limit) {
-    const int x = b % kBlocksPerSide * kBlockSize, y = b / kBlocksPerSide * kBlockSize;
+    const int x = tile_.x0 + b % kBlocksPerSide * kBlockSize, y = tile_.y0 + b / kBlocksPerSide * kBlockSize;
     sortBlock(block);
-    if (limit == kNoLimit && !keepsNearest()) foldCertain(block, b, tile_.x0 + x, tile_.y0 + y);
     walker_.begin(tile_, limit);
-    const int columns = std::min(kBlockSize, tile_.width - x), rows = std::min(kBlockSize, tile_.height - y);
+    const bool whole = limit == kNoLimit && !keepsNearest() && !narrows_;
+    if (whole) foldCertain(block, b, x, y);
+    const bool alike = whole && !done_[b] && sameStacks(block, tile_);
+    const int columns = std::min(kBlockSize, tile_.x0 + tile_.width - x), rows = std::min(kBlockSize, tile_.y0 + tile_.height - y);
     bool all = true;
     for (int row = 0; row < rows; ++row) {
       for (int column = 0; column < columns; ++column) {
@@ -230,16 +232,24 @@ class TileRenderer {
         if ((done_[b] >> p & 1) || (block.counts[p] == 0 && limit == kNoLimit)) continue;
         const PixelStack stack{block.keys.get() + p, block.counts[p], kBlockPixels, tile_.format, tile_.slots.data(),
                                narrows_ ? window_.before(p) : std::span<const std::uint32_t>{}};
-        const int px = tile_.x0 + x + column, py = tile_.y0 + y + row;
-        if (walker_.walk(stack, px, py) == Walk::Finished) {
-          fold_.endPixel(px, py);
+        if (walker_.walk(stack, x + column, y + row) == Walk::Finished) {
+          fold_.endPixel(x + column, y + row);
           done_[b] |= std::uint64_t{1} << p;
+          if (alike && walker_.remembers()) return repeatFirst(b, x, y);
         } else {
           all = false;
         }
       }
     }
     return all;
+  }
+
+  // All pixels of the block are as the first, which has been walked.
+  bool repeatFirst(int b, int x, int y) {
+    walker_.repeat(kBlockPixels - 1);
+    for (int p = 1; p < kBlockPixels; ++p) fold_.endPixel(x + p % kBlockSize, y + p / kBlockSize);
+    done_[b] = ~std::uint64_t{0};
+    return true;
   }
 
   const Frame& frame_;

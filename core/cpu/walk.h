@@ -71,6 +71,9 @@ class Walker {
     counts_.coplanarPixels += outcome == Walk::Finished && coplanar_;
     return outcome;
   }
+  // The last pixel tells others of the same fragments.
+  bool remembers() const { return remembers_; }
+  void repeat(std::uint64_t pixels) { counts_.coplanarPixels += coplanar_ ? pixels : 0; }
   const WalkCounts& counts() const { return counts_; }
 
  private:
