@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/cpu/kernels.h"
 #include "tests/support/parts.h"
 #include "tests/support/views.h"
 
@@ -86,12 +87,49 @@ TEST(Oit, threadsChangeNothing) {
   EXPECT_TRUE(sameBytes(drawParts(parts, kOblique, one).frame, drawParts(parts, kOblique, two).frame));
 }
 
-// Wanting the counts makes the fold look behind opaque surfaces; what is seen stays.
-TEST(Oit, countingChangesNoColour) {
-  std::vector<oit::Part> parts = {part(bumpySphere(2, 40, 20), kRed), part(sphere(1.5, 40, 20), kSolidBlue), part(torusKnot(0.8, 80, 8), kGreen)};
-  const Image<Rgb8> counted = drawParts(parts, kOblique).frame.color;
-  oit::Renderer plain(parts, unlit());
-  EXPECT_EQ(plain.draw(kOblique).color.pixels, counted.pixels);
+std::vector<std::vector<oit::Part>> assortment() {
+  std::vector<oit::Part> copies, planes;
+  for (unsigned i = 0; i < 7; ++i) copies.push_back(part(shuffled(bumpySphere(1.5 + 0.2 * (i / 3), 90, 50), i), {40 * i, 200, 90, 0.15 * i}));
+  for (const glm::vec4& color : {kRed, kNothing, kGreen, kBlue}) planes.push_back(part(square(1), color, rotation({0, 80, 0}) * scaling({5, 5, 5})));
+  planes.push_back(part(fanSquare(1, 20), kNothing, scaling({3, 3, 3})));
+  planes.push_back(part(square(-1), kSolidBlue, scaling({6, 6, 6})));
+  return {{part(bumpySphere(2, 40, 20), kRed), part(sphere(1.5, 40, 20), kSolidBlue), part(torusKnot(0.8, 80, 8), kGreen)}, copies, planes};
+}
+
+// Wanting the counts makes the fold look behind opaque surfaces and take pixels one by one; otherwise whole blocks are blended at once.
+TEST(Oit, countingChangesNoColourOnAnySimdTarget) {
+  for (const std::vector<oit::Part>& parts : assortment()) {
+    const OitDrawing counted = drawParts(parts, kOblique);
+    for (const char* target : {"scalar", "sse4", "avx2", "best"}) {
+      cpu::chooseSimd(target);
+      for (const bool colorOnly : {true, false}) {
+        oit::RenderOptions options = unlit();
+        options.wantFloats = options.wantDepth = options.wantIds = !colorOnly;
+        oit::Renderer renderer(parts, options);
+        const oit::Frame frame = renderer.draw(kOblique);
+        EXPECT_EQ(frame.color.pixels, counted.frame.color.pixels) << target;
+        if (colorOnly) continue;
+        EXPECT_EQ(frame.floats.pixels, counted.frame.floats.pixels) << target;
+        EXPECT_EQ(frame.depth.pixels, counted.frame.depth.pixels) << target;
+        EXPECT_EQ(frame.ids.pixels, counted.frame.ids.pixels) << target;
+      }
+    }
+    cpu::chooseSimd("best");
+  }
+}
+
+// One mesh placed several times in one place is projected once; a mesh of its own for each is not.
+TEST(Oit, aMeshPlacedTwiceIsAsTwoMeshes) {
+  const Mesh body = bumpySphere(2, 40, 20);
+  const oit::Part shared = part(body, kRed);
+  const View inside = lookAt({0.1, 0.2, 0.1}, {3, 1, 0}, 60, 50, 0.02);
+  for (const View& view : {kOblique, inside}) {
+    oit::Part moved = shared;
+    moved.worldFromObject = translation({0.5, 0, 0});
+    const oit::Frame once = drawParts({shared, shared, moved, moved, shared}, view).frame;
+    const oit::Frame each = drawParts({part(body, kRed), part(body, kRed), part(body, kRed, moved.worldFromObject), part(body, kRed, moved.worldFromObject), part(body, kRed)}, view).frame;
+    EXPECT_TRUE(sameBytes(once, each));
+  }
 }
 
 TEST(Oit, samplesAreTheMeanOfPicturesAndDepthIsTheCentres) {
