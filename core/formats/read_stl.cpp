@@ -1,4 +1,4 @@
-// STL: a soup of triangles, each with its own three vertices. Binary when the size is what the count at byte 80 demands, whatever the first
+// STL: a soup of triangles, each written with its own three vertices. Binary when the size is what the count at byte 80 demands, whatever the first
 // bytes say (some writers begin a binary header with "solid"). Normals and attributes are passed over: the corners decide.
 #include <algorithm>
 #include <array>
@@ -59,9 +59,9 @@ Mesh readBinary(const Source& source) {
     for (int k = 0; k < 9; ++k) {
       if (!std::isfinite(c[k])) source.failAtByte(place + 4 * k, "a coordinate is not a finite number: {}", c[k]);
     }
-    const std::uint32_t first = builder.index(static_cast<std::int64_t>(builder.vertexCount() + 2), place) - 2;
-    for (int k = 0; k < 9; k += 3) builder.addVertex({c[k], c[k + 1], c[k + 2]});
-    builder.addFace(std::array<std::uint32_t, 3>{first, first + 1, first + 2}, place);
+    std::array<std::uint32_t, 3> corners;
+    for (int k = 0; k < 3; ++k) corners[k] = builder.addOwnVertex({c[3 * k], c[3 * k + 1], c[3 * k + 2]}, place);
+    builder.addFace(corners, place);
   }
   return builder.finish();
 }
@@ -100,8 +100,7 @@ class AsciiStl {
     corners_.clear();
     for (std::string_view word = cursor_.token(); !sameWord(word, "endloop"); word = cursor_.token()) {
       if (!sameWord(word, "vertex")) cursor_.fail("vertex or endloop should be here, found {}", quoted(word));
-      corners_.push_back(builder_.index(static_cast<std::int64_t>(builder_.vertexCount()), place));
-      builder_.addVertex(cursor_.point("a coordinate"));
+      corners_.push_back(builder_.addOwnVertex(cursor_.point("a coordinate"), place));
     }
     expect("endfacet");
     if (corners_.size() < 3) cursor_.fail("a facet of {} vertices", corners_.size());

@@ -2,6 +2,8 @@
 #include "core/formats/soup_builder.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -17,6 +19,20 @@ std::span<const std::uint32_t> cornersOf(const glm::uvec3& triangle) { return {&
 void SoupBuilder::reserve(std::size_t vertices, std::size_t triangles) {
   mesh_.vertices.reserve(vertices);
   mesh_.triangles.reserve(triangles);
+}
+
+std::uint32_t SoupBuilder::addOwnVertex(const glm::dvec3& position, std::size_t place) {
+  constexpr std::size_t kPlaces = 1 << 16;
+  constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  if (lately_.empty()) lately_.assign(kPlaces, kNone);
+  std::uint64_t hash = 0;
+  for (int k = 0; k < 3; ++k) hash = (hash ^ std::bit_cast<std::uint64_t>(position[k])) * 0x9E3779B97F4A7C15ull, hash ^= hash >> 32;
+  std::uint32_t& last = lately_[hash % kPlaces];
+  if (last == kNone || std::memcmp(&mesh_.vertices[last], &position, sizeof position) != 0) {
+    last = index(static_cast<std::int64_t>(vertexCount()), place);
+    addVertex(position);
+  }
+  return last;
 }
 
 void SoupBuilder::addFace(std::span<const std::uint32_t> corners, std::size_t place) {

@@ -26,6 +26,9 @@ class SoupBuilder {
 
   std::size_t vertexCount() const { return mesh_.vertices.size(); }
   void addVertex(const glm::dvec3& position) { mesh_.vertices.push_back(position); }
+  // For files that give each face vertices of its own: the index of a vertex with these coordinates, to the bit. One met lately serves again, which
+  // most do: it takes a quarter of the memory, and time to project.
+  std::uint32_t addOwnVertex(const glm::dvec3& position, std::size_t place);
   // Colours as in Mesh::colors. Of the faces from here on; where no face has one, those of the vertices count, given for each vertex or for none.
   void setFaceColor(const glm::vec4& color);
   void addVertexColor(const glm::vec4& color) { vertexColors_.push_back(color); }
@@ -64,6 +67,7 @@ class SoupBuilder {
   Place kind_;
   int firstIndex_;
   Mesh mesh_;
+  std::vector<std::uint32_t> lately_;   // vertices by a hash of their coordinates, the last one that had it; kNone
   std::vector<Polygon> polygons_;
   std::vector<std::uint32_t> corners_;
   bool hasFaceColors_ = false;

@@ -1,4 +1,5 @@
 // What each format may say, and that all of it arrives.
+#include <cmath>
 #include <gtest/gtest.h>
 
 #include "mesh_texts.h"
@@ -68,11 +69,21 @@ TEST(Stl, asciiKeepsDoublesAndSeveralSolids) {
       "facet normal nan nan nan\n outer loop\n vertex 0.1 0 0\n vertex 1 0 0\n vertex 0 1 0\n endloop\n endfacet\n";
   const Mesh mesh =
       meshOf("solid a name with spaces\n" + facet + "endsolid a\nSOLID\r\n" + facet + facet + "ENDSOLID\n");
+  // The same facet three times is three faces on three vertices.
   EXPECT_EQ(mesh.triangles.size(), 3u);
-  EXPECT_EQ(mesh.vertices.size(), 9u);
+  EXPECT_EQ(mesh.vertices.size(), 3u);
   EXPECT_EQ(mesh.vertices[0].x, 0.1);
   EXPECT_FALSE(mesh.singlePrecision);
   EXPECT_EQ(meshOf("solid\nendsolid\n").triangles.size(), 0u);
+}
+
+TEST(Stl, verticesAreSharedWhereTheyAreTheSameToTheBit) {
+  const auto facet = [](double x) { return fmt::format("facet normal 0 0 0\nouter loop\nvertex {} 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n", x); };
+  const Mesh mesh = meshOf("solid\n" + facet(0.5) + facet(std::nextafter(0.5, 1)) + facet(0.0) + facet(-0.0) + facet(0.5) + "endsolid\n");
+  EXPECT_EQ(mesh.triangles.size(), 5u);
+  EXPECT_EQ(mesh.vertices.size(), 6u);
+  EXPECT_EQ(mesh.triangles[4], mesh.triangles[0]);
+  EXPECT_TRUE(std::signbit(mesh.vertices[mesh.triangles[3].x].x));
 }
 
 std::string binaryStl(std::string header, std::uint32_t count) {
