@@ -8,6 +8,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -91,6 +92,8 @@ int main(int argc, char** argv) {
   } catch (const std::length_error&) {   // a container that no memory could hold
     return fail(ExitCode::Machine, "not enough memory");
   } catch (const std::exception& error) {
+    // oneTBB's words.
+    if (std::string_view(error.what()).starts_with("pthread_create")) return fail(ExitCode::Machine, "not enough memory, or too many processes, to start a thread");
     return fail(ExitCode::Machine, fmt::format("unexpected error: {}", error.what()));
   }
 }
