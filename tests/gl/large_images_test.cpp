@@ -3,6 +3,7 @@
 
 #include "core/gl/measure.h"
 #include "tests/support/hard_gl_scenes.h"
+#include "tests/support/stacks.h"
 
 namespace copeel::test {
 namespace {
@@ -10,13 +11,15 @@ namespace {
 TEST(GlLargeImages, countEveryFragment) {
   const NamedScene named = extremeImage(16384, 16);
   const PlaneClasses planes(named.scene, 0);
+  const auto onCpu = static_cast<double>(stacksOf(cpu::Frame(named.scene, planes, named.view)).fragments());
+  ASSERT_GT(onCpu, 10'000);
   gl::Renderer renderer(named.scene, planes);
   renderer.setView(named.view);
   for (const MethodInfo& method : methods()) {
     if (!method.draw) continue;
     Stats stats;
     gl::measure(renderer, method, {}, stats);
-    EXPECT_GT(stats.fragments, 100'000u);
+    EXPECT_NEAR(static_cast<double>(stats.fragments), onCpu, 0.02 * onCpu) << method.name;   // the rasterizers differ on edges
     // Three balls have no more than eight fragments in a pixel: buffers of eight hold them all.
     const bool holdsEight = method.name == "kb" || method.name == "k-plus" || method.name == "srab" || method.name == "f2b-fab";
     if (method.robust || holdsEight) {
