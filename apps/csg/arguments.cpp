@@ -15,14 +15,14 @@ template <class Point>
 std::vector<Point> pointsOf(const SyntaxTree& tree, const Value& list) {
   if (list.kind != ValueKind::Vector) tree.fail(list.textBegin, "points is no list");
   std::vector<Point> result;
-  result.reserve(list.itemCount);
+  result.reserve(list.itemCount());
   std::size_t at = static_cast<std::size_t>(&list - tree.tape.data()) + 1;
-  for (std::uint32_t i = 0; i < list.itemCount; ++i, at = tree.next(at)) {
+  for (std::uint32_t i = 0; i < list.itemCount(); ++i, at = tree.next(at)) {
     const Value& item = tree.tape[at];
     Point point(0.0);
     constexpr auto kDimension = static_cast<std::uint32_t>(Point::length());
-    bool good = item.kind == ValueKind::Vector && (item.itemCount == kDimension || (kDimension == 3 && item.itemCount == 2));
-    for (std::uint32_t k = 0; good && k < item.itemCount; ++k) {
+    bool good = item.kind == ValueKind::Vector && (item.itemCount() == kDimension || (kDimension == 3 && item.itemCount() == 2));
+    for (std::uint32_t k = 0; good && k < item.itemCount(); ++k) {
       const Value& number = tree.tape[at + 1 + k];
       point[static_cast<int>(k)] = number.number;
       good = number.kind == ValueKind::Number && std::isfinite(number.number);
@@ -52,11 +52,11 @@ bool readNumbers(const SyntaxTree& tree, const Value& value, double* result, std
   }
   if (value.kind != ValueKind::Vector) return false;
   std::size_t at = static_cast<std::size_t>(&value - tree.tape.data()) + 1;
-  for (std::uint32_t i = 0; i < value.itemCount && i < count; ++i, at = tree.next(at)) {
+  for (std::uint32_t i = 0; i < value.itemCount() && i < count; ++i, at = tree.next(at)) {
     if (tree.tape[at].kind != ValueKind::Number) return false;
     result[i] = tree.tape[at].number;
   }
-  return value.itemCount > 0;
+  return value.itemCount() > 0;
 }
 
 Fragments fragmentsOf(const SyntaxTree& tree, const SyntaxNode& node) {
@@ -77,10 +77,10 @@ glm::dmat4 matrixOf(const SyntaxTree& tree, const SyntaxNode& node) {
   if (!rows || rows->kind != ValueKind::Vector) return matrix;
   MatrixTexts texts{};
   std::size_t row = static_cast<std::size_t>(rows - tree.tape.data()) + 1;
-  for (int r = 0; r < 4 && r < static_cast<int>(rows->itemCount); ++r, row = tree.next(row)) {
+  for (int r = 0; r < 4 && r < static_cast<int>(rows->itemCount()); ++r, row = tree.next(row)) {
     if (tree.tape[row].kind != ValueKind::Vector) tree.fail(tree.tape[row].textBegin, "a row of the matrix is no list");
     std::size_t at = row + 1;
-    for (int c = 0; c < 4 && c < static_cast<int>(tree.tape[row].itemCount); ++c, at = tree.next(at)) {
+    for (int c = 0; c < 4 && c < static_cast<int>(tree.tape[row].itemCount()); ++c, at = tree.next(at)) {
       const Value& entry = tree.tape[at];
       if (entry.kind != ValueKind::Number) tree.fail(entry.textBegin, "an entry of the matrix is no number");
       matrix[c][r] = entry.number;
@@ -125,10 +125,12 @@ IndexLists indexListsOf(const SyntaxTree& tree, const Value& lists, std::size_t 
   IndexLists result;
   if (lists.kind != ValueKind::Vector) tree.fail(lists.textBegin, fmt::format("{}s is no list", what));
   std::size_t list = static_cast<std::size_t>(&lists - tree.tape.data()) + 1;
-  for (std::uint32_t i = 0; i < lists.itemCount; ++i, list = tree.next(list)) {
+  result.ends.reserve(lists.itemCount());
+  result.indices.reserve(tree.next(list - 1) - list - lists.itemCount());
+  for (std::uint32_t i = 0; i < lists.itemCount(); ++i, list = tree.next(list)) {
     if (tree.tape[list].kind != ValueKind::Vector) tree.fail(tree.tape[list].textBegin, fmt::format("{} {} is no list", what, i));
     std::size_t at = list + 1;
-    for (std::uint32_t k = 0; k < tree.tape[list].itemCount; ++k, at = tree.next(at)) {
+    for (std::uint32_t k = 0; k < tree.tape[list].itemCount(); ++k, at = tree.next(at)) {
       const Value& index = tree.tape[at];
       const bool good = index.kind == ValueKind::Number && index.number >= 0 && index.number < static_cast<double>(pointCount);
       if (!good) {

@@ -168,14 +168,25 @@ class Parser {
         // A trailing comma, as people write it.
       } else {
         readScalar();
-        if (!vectors_.empty()) ++tree_.tape[vectors_.back()].itemCount;
+        if (!vectors_.empty()) countItem();
       }
       closeVectors();
     } while (!vectors_.empty());
   }
 
+  std::uint32_t lengthOf(std::size_t length) {
+    if (length > Value::kMostLength) tree_.fail(in_.at(), "a value is too long");
+    return narrow(length);
+  }
+
+  // Of the innermost open vector.
+  void countItem() {
+    Value& vector = tree_.tape[vectors_.back()];
+    vector.length = lengthOf(std::size_t{vector.length} + 1);
+  }
+
   void openVector() {
-    if (!vectors_.empty()) ++tree_.tape[vectors_.back()].itemCount;
+    if (!vectors_.empty()) countItem();
     Value vector;
     vector.kind = ValueKind::Vector;
     vector.textBegin = narrow(in_.at() - 1);
@@ -206,7 +217,7 @@ class Parser {
     if (!hasBegin) tree_.fail(in_.at(), "unexpected :");
     const double first = tree_.tape.back().number;
     tree_.tape.pop_back();
-    vector.itemCount = 0;
+    vector.length = 0;
     double bounds[2] = {1, 1};
     int count = 0;
     while (count < 2 && in_.passIf(':')) {
@@ -223,7 +234,7 @@ class Parser {
       item.number = first + step * i;
       item.textBegin = narrow(begin);
       tree_.tape.push_back(item);
-      ++tree_.tape[vectors_.back()].itemCount;
+      countItem();
     }
   }
 
@@ -235,7 +246,7 @@ class Parser {
     value.kind = ValueKind::Number;
     value.textBegin = narrow(in_.at());
     value.number = in_.readNumber();
-    value.textLength = narrow(in_.at()) - value.textBegin;
+    value.length = lengthOf(in_.at() - value.textBegin);
     tree_.tape.push_back(value);
   }
 
@@ -243,7 +254,7 @@ class Parser {
     Value value;
     value.textBegin = narrow(in_.at());
     const std::string_view word = in_.readName();
-    value.textLength = narrow(word.size());
+    value.length = lengthOf(word.size());
     if (word == "true" || word == "false") {
       value.kind = ValueKind::Bool;
       value.number = word == "true" ? 1 : 0;
@@ -258,7 +269,7 @@ class Parser {
     value.kind = ValueKind::String;
     value.textBegin = narrow(in_.at() + 1);
     value.rawString = inText_;
-    value.textLength = narrow(in_.readString(inText_).size());
+    value.length = lengthOf(in_.readString(inText_).size());
     tree_.tape.push_back(value);
   }
 

@@ -1,7 +1,7 @@
 // The text of a .csg file as flat arrays: what was written, before it means anything.
 //
 // Nodes stand in the order of the text (a parent before its children); values stand on a tape on which a vector is followed by its
-// items. Nothing here recurses, so a nesting of a million levels costs memory only. Cost: one pass over the text, about 24 bytes a value.
+// items. Nothing here recurses, so a nesting of a million levels costs memory only. Cost: one pass over the text, about 16 bytes a value.
 #pragma once
 
 #include <cstdint>
@@ -23,17 +23,21 @@ enum Modifier : std::uint8_t { kBackground = 1, kHighlight = 2, kRoot = 4, kDisa
 enum class ValueKind : std::uint8_t { Undef, Bool, Number, String, Vector };
 
 struct Value {
+  static constexpr std::uint32_t kMostLength = (1u << 28) - 1;
+
   std::uint32_t textBegin = 0;      // bytes of the source; of a string, without its quotes
-  std::uint32_t textLength = 0;     // 0 for a vector and for an item of a range
-  ValueKind kind = ValueKind::Undef;
-  bool rawString = false;           // text() writes its strings without escapes
-  std::uint32_t itemCount = 0;      // Vector: items on its first level
+  std::uint32_t length : 28;        // Vector: items on its first level; of an item of a range 0; else bytes of the source
+  ValueKind kind : 3;
+  bool rawString : 1;               // text() writes its strings without escapes
   union {
     double number;                  // Number, Bool (0 or 1)
     std::uint64_t tapeEnd;          // Vector: index past its last descendant
   };
-  Value() : number(0) {}
+  Value() : length(0), kind(ValueKind::Undef), rawString(false), number(0) {}
+  std::uint32_t itemCount() const { return kind == ValueKind::Vector ? length : 0; }
+  std::uint32_t textLength() const { return kind == ValueKind::Vector ? 0 : length; }
 };
+static_assert(sizeof(Value) == 16);
 
 struct Argument {
   std::uint32_t nameBegin = 0;
@@ -65,7 +69,7 @@ struct SyntaxTree {
   }
   // The argument of this name, or the positional one, or null.
   const Value* find(const SyntaxNode& node, std::string_view name, int position = -1) const;
-  std::string_view textOf(const Value& value) const { return text.substr(value.textBegin, value.textLength); }
+  std::string_view textOf(const Value& value) const { return text.substr(value.textBegin, value.textLength()); }
   std::string stringOf(const Value& value) const;       // escapes undone
   std::string_view nameOf(const SyntaxNode& node) const;
   std::size_t lineAt(std::size_t offset) const;

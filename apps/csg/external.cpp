@@ -86,7 +86,7 @@ struct Writer {
         const std::string_view name = tree.text.substr(argument.nameBegin, argument.nameLength);
         if (name == "timestamp" && a > 0) {
           copy(copied, tree.text.rfind(',', argument.nameBegin));
-          copied = value.textBegin + value.textLength;
+          copied = value.textBegin + value.textLength();
         }
         if (value.kind == ValueKind::String) replaceString(copied, name, value);
       }
@@ -101,7 +101,7 @@ struct Writer {
     if (isFile) content = absolutePath(folder, content);
     copy(copied, value.textBegin - 1u);
     text += quotedForOpenscad(content);
-    copied = value.textBegin + value.textLength + 1u;
+    copied = value.textBegin + value.textLength() + 1u;
     if (isFile) addFile(content, value.textBegin);
     else hash.add(content);
   }

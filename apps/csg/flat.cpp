@@ -137,7 +137,7 @@ Flat polygonOf(const SyntaxTree& tree, const SyntaxNode& node) {
   const std::vector<glm::dvec2> positions = points2Of(tree, *points);
   const Value* paths = tree.find(node, "paths", 1);
   IndexLists lists;
-  if (paths && paths->kind == ValueKind::Vector && paths->itemCount > 0) {
+  if (paths && paths->kind == ValueKind::Vector && paths->itemCount() > 0) {
     lists = indexListsOf(tree, *paths, positions.size(), "path");
   } else {
     lists.indices.resize(positions.size());

@@ -12,6 +12,12 @@ namespace copeel::csg {
 
 class MeshBuilder {
  public:
+  // A hint.
+  void reserve(std::size_t vertices, std::size_t triangles) {
+    mesh_.vertices.reserve(vertices);
+    mesh_.triangles.reserve(triangles);
+    mesh_.facets.reserve(triangles);
+  }
   std::uint32_t addVertex(const glm::dvec3& position) {
     mesh_.vertices.push_back(position);
     return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);

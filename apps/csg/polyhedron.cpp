@@ -103,6 +103,7 @@ class FaceBuilder {
 MeshPointer makePolyhedron(const std::vector<glm::dvec3>& points, const std::vector<std::uint32_t>& indices,
                            const std::vector<std::uint32_t>& faceEnds) {
   MeshBuilder builder;
+  builder.reserve(points.size(), indices.size() - std::min(indices.size(), 2 * faceEnds.size()));
   for (const glm::dvec3& point : points) builder.addVertex(point);
   FaceBuilder faces(builder);
   std::size_t begin = 0;

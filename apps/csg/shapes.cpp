@@ -57,7 +57,7 @@ bool isExternalNode(const SyntaxTree& tree, std::uint32_t index) {
   const SyntaxNode& node = tree.nodes[index];
   if (node.keyword >= Keyword::Text) return true;
   const Value* file = tree.find(node, "file");
-  const bool namesFile = file && file->kind == ValueKind::String && file->textLength > 0;
+  const bool namesFile = file && file->kind == ValueKind::String && file->textLength() > 0;
   if (node.keyword == Keyword::LinearExtrude || node.keyword == Keyword::RotateExtrude) return namesFile;   // of a DXF, long deprecated
   return node.keyword == Keyword::Import && !isMeshFile(fileOf(tree, node));
 }

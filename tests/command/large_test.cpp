@@ -131,5 +131,26 @@ TEST_F(Large, ASoupOfTenMillionTriangles) {
   EXPECT_LE(stats["memory_bytes"].get<double>(), 150.0 * torus.triangleCount() + (64 << 20));
 }
 
+// The values of the text, 16 bytes each, are held until the mesh is made of them.
+TEST_F(Large, APolyhedronOfAMillionTriangles) {
+  const Torus torus{1000, 500};
+  std::string text = "polyhedron(points = [";
+  for (std::uint32_t i = 0; i < torus.around; ++i) {
+    for (std::uint32_t j = 0; j < torus.across; ++j) {
+      const auto p = torus.point(i, j);
+      text += fmt::format("[{}, {}, {}], ", p[0], p[1], p[2]);
+    }
+  }
+  text += "], faces = [";
+  torus.forEachTriangle([&](auto a, auto b, auto c) {
+    const auto index = [&](const auto& corner) { return corner[0] % torus.around * torus.across + corner[1] % torus.across; };
+    text += fmt::format("[{}, {}, {}], ", index(a), index(c), index(b));
+  });
+  write("torus.csg", text + "], convexity = 1);\n");
+  const auto stats = drawn("torus.csg");
+  EXPECT_EQ(stats["triangles"], torus.triangleCount());
+  EXPECT_LE(stats["memory_bytes"].get<double>(), 150.0 * torus.triangleCount() + (64 << 20));
+}
+
 }  // namespace
 }  // namespace copeel
