@@ -58,7 +58,7 @@ void warmUp(const CommonOptions& common) {
   View view = viewOf(common.camera, renderer.bounds());
   view.width = std::min(view.width, kMostSidePx);
   view.height = std::min(view.height, kMostSidePx);
-  writePng("/dev/null", renderer.draw(view).color);
+  renderer.draw(view);
 }
 
 // openscad is left at its way out: `scad` is to be finished before the model is believed.

@@ -48,7 +48,6 @@ class Parser {
     bool braces;     // else it waits for its only child
   };
 
-  // Typical files hold a number every 8 bytes; growing the tape by copies would double the time of a large file.
   void reserve() {
     // A value comes after one of these. A tape that had to grow would be held twice.
     const auto leads = [](char c) { return (c == ',') | (c == '[') | (c == '=') | (c == '(') | (c == ':'); };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-
 namespace copeel::oit {
 
 bool OverFold::beginTile(cpu::Tile& tile) {

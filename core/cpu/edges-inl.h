@@ -85,7 +85,7 @@ struct EdgeWalk {
   }
 };
 
-// Column 0 … 3 of a row of four samples; row bits.
+// The bit of a sample where it is outside.
 template <int kBit>
 HWY_INLINE HWY_ATTR void addSample(const EdgeWalk& u, const EdgeWalk& v, const EdgeWalk& w, hn::Vec<Samples>& outside) {
   const hn::RebindToUnsigned<Samples> bits;

@@ -1,7 +1,7 @@
 // Vertices to the sub-pixel grid, and triangles that reach behind the eye or far off the image cut to pieces that fit it.
 //
 // Coordinates are relative to samples: the sample of pixel (x, y) has grid coordinates (x << bits, y << bits). The grid is as fine as exact
-// 32-bit edge functions inside a tile allow: 2^-12 pixel up to 1,000 pixels, 2^-8 at 16,384. 8 bytes a placed vertex.
+// 32-bit edge functions inside a tile allow: 2^-12 pixel up to 1,000 pixels, 2^-8 at 16,384. 8 bytes a placed vertex, once for a mesh placed again in the same place.
 #pragma once
 
 #include <cstdint>

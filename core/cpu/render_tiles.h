@@ -235,7 +235,7 @@ class TileRenderer {
         if (walker_.walk(stack, x + column, y + row) == Walk::Finished) {
           fold_.endPixel(x + column, y + row);
           done_[b] |= std::uint64_t{1} << p;
-          if (alike && walker_.remembers()) return repeatFirst(b, x, y);
+          if (alike && p == 0 && walker_.remembers()) return repeatFirst(b, x, y);
         } else {
           all = false;
         }
