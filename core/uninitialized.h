@@ -10,6 +10,9 @@ namespace copeel {
 
 template <class T>
 struct LeavesUninitialized : std::allocator<T> {
+  LeavesUninitialized() = default;
+  template <class U>
+  LeavesUninitialized(const LeavesUninitialized<U>&) noexcept {}
   template <class U>
   struct rebind {
     using other = LeavesUninitialized<U>;

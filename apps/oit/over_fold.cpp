@@ -36,21 +36,17 @@ void OverFold::finishResult() {
   ready_ = true;
 }
 
-namespace {
-Rgb8 rgb8Of(const fold::BlendedPixel& pixel) {
-  return {static_cast<std::uint8_t>(pixel.levels), static_cast<std::uint8_t>(pixel.levels >> 8), static_cast<std::uint8_t>(pixel.levels >> 16)};
-}
-}  // namespace
-
 inline void OverFold::putColors(std::uint64_t pixels, const fold::BlendedPixel* blended, int x, int y) const {
   Image<Rgb8>* const image = canvas_.targets().color;
   if (!image) return;
   for (int row = 0; row < cpu::kBlockSize; ++row) {
-    Rgb8* const to = image->pixels.data() + std::size_t(y + row) * std::size_t(image->width) + x;
+    std::uint64_t left = pixels >> (row * cpu::kBlockSize) & 0xFF;
+    if (!left) continue;   // the row may lie below the image
+    Rgb8* const to = &image->at(x, y + row);
     const fold::BlendedPixel* const from = blended + row * cpu::kBlockSize;
-    for (std::uint64_t left = pixels >> (row * cpu::kBlockSize) & 0xFF; left; left &= left - 1) {
+    for (; left; left &= left - 1) {
       const int k = std::countr_zero(left);
-      to[k] = rgb8Of(from[k]);
+      to[k] = from[k].bytes;
     }
   }
 }
@@ -68,7 +64,7 @@ std::uint64_t OverFold::foldBlock(const cpu::FragmentGrid::Block& block, const c
     const fold::BlendedPixel& from = blended[p];
     PixelResult result;
     result.color = {from.color[0], from.color[1], from.color[2]};
-    result.bytes = rgb8Of(from);
+    result.bytes = from.bytes;
     if (wantsNearest) result.nearest = nearestSeen({block.keys.get() + p, block.counts[p], cpu::kBlockPixels, tile.format, tile.slots.data()});
     canvas_.put(x + p % cpu::kBlockSize, y + p / cpu::kBlockSize, result, tile);
   }

@@ -18,6 +18,7 @@
 #include "core/scene/sample_offset.h"
 
 namespace copeel::oit {
+
 struct Renderer::State {
   RenderOptions options;
   Scene scene;

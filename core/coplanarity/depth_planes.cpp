@@ -2,7 +2,6 @@
 #include "core/coplanarity/depth_planes.h"
 
 #include <algorithm>
-#include <limits>
 
 #include <glm/geometric.hpp>
 

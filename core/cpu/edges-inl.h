@@ -105,7 +105,7 @@ HWY_INLINE HWY_ATTR void addRow(EdgeWalk u, EdgeWalk v, EdgeWalk w, hn::Vec<Samp
   addSample<4 * kRow + 3>(u, v, w, outside);
 }
 
-HWY_INLINE HWY_ATTR void coverFour(EdgeBatch& batch, int i) {
+HWY_INLINE HWY_ATTR void coverLanes(EdgeBatch& batch, int i) {
   const Samples d;
   EdgeWalk u(batch, 0, i), v(batch, 1, i), w(batch, 2, i);
   auto outside = hn::Zero(d);
@@ -125,7 +125,7 @@ inline constexpr std::uint16_t kColumns[] = {0, 0x1111, 0x3333, 0x7777, 0xFFFF},
 
 // What small triangles cover. One that covers nothing is no triangle.
 HWY_INLINE HWY_ATTR void coverSmall(EdgeBatch& batch, int count) {
-  for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(Samples()))) coverFour(batch, i);
+  for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(Samples()))) coverLanes(batch, i);
   for (int i = 0; i < count; ++i) {
     const int width = batch.x1[i] - batch.x0[i] + 1, height = batch.y1[i] - batch.y0[i] + 1;
     if (batch.side[i] == 0 || width > 4 || height > 4) {

@@ -14,7 +14,7 @@ struct Frame {
   const Scene& scene;
   const PlaneClasses& planes;
   const View& view;
-  DepthPlanes depths;       // per plane class
+  DepthPlanes depths;
   Projection projection;
   Bins bins;
 

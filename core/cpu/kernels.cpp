@@ -1,4 +1,4 @@
-// Large triangles block by block, their keys row by row; small ones in one window, sample by sample. The hot code is in kernels-inl.h, compiled
+// Large triangles block by block, their keys row by row; small ones sample by sample, in one window or as their set-up has found them. The hot code is in kernels-inl.h, compiled
 // once per target.
 #include "core/cpu/kernels.h"
 
@@ -18,9 +18,6 @@
 namespace copeel::cpu {
 
 HWY_EXPORT(CollectFragments);
-HWY_EXPORT(SortBlock);
-HWY_EXPORT(OrderOfBlock);
-HWY_EXPORT(SameStacks);
 HWY_EXPORT(CollectNearest);
 HWY_EXPORT(CollectKNearest);
 HWY_EXPORT(SimdName);
@@ -29,12 +26,6 @@ bool collectFragments(std::span<const TriangleSetup> triangles, KeyFormat format
                       FragmentGrid& grid) {
   return HWY_DYNAMIC_DISPATCH(CollectFragments)(triangles.data(), triangles.size(), format, rect, finished, grid);
 }
-
-void sortBlock(FragmentGrid::Block& block) { HWY_DYNAMIC_DISPATCH(SortBlock)(block); }
-
-BlockOrder orderOfBlock(const FragmentGrid::Block& block, const Tile& tile) { return HWY_DYNAMIC_DISPATCH(OrderOfBlock)(block, tile); }
-
-bool sameStacks(const FragmentGrid::Block& block, const Tile& tile) { return HWY_DYNAMIC_DISPATCH(SameStacks)(block, tile); }
 
 void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint64_t* nearest) {
   HWY_DYNAMIC_DISPATCH(CollectNearest)(triangles.data(), triangles.size(), format, rect, nearest);
@@ -68,7 +59,7 @@ void NearestGrid::clear() {
   for (Block& block : blocks_) {
     FragmentGrid::Block& kept = block.kept;
     if (kept.capacity != k_) {
-      kept.keys = std::make_unique_for_overwrite<std::uint64_t[]>(std::size_t{k_} * kBlockPixels + 1);
+      kept.keys = std::make_unique_for_overwrite<std::uint64_t[]>(std::size_t{k_} * kBlockPixels);
       kept.capacity = kept.used = k_;
     }
     std::fill_n(kept.keys.get() + std::size_t{k_ - 1} * kBlockPixels, kBlockPixels, kEmptyKey);

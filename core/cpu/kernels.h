@@ -1,4 +1,4 @@
-// The inner loops of the tile renderer: coverage, depth keys, and sorting, vectorised with run-time dispatch (Google Highway: AVX-512,
+// The inner loops of the tile renderer: coverage and depth keys, vectorised with run-time dispatch (Google Highway: AVX-512,
 // AVX2, SSE4, scalar). Every target gives the same bytes: coverage is exact integer arithmetic, and the depth of a lane is the same three
 // double operations whatever the width.
 //
@@ -43,14 +43,11 @@ struct KeyFormat {
   std::uint32_t slotOf(std::uint64_t key) const { return static_cast<std::uint32_t>(key & ((std::uint64_t{1} << slotBits()) - 1)); }
 };
 
-class Tile;
-struct TileSlot;
-
 // All fragments of the pixels of a tile, block by block, layer by layer.
 class FragmentGrid {
  public:
   struct Block {
-    std::unique_ptr<std::uint64_t[]> keys;     // [layer][64 pixels], and one more that is read beside the last
+    std::unique_ptr<std::uint64_t[]> keys;     // [layer][64 pixels]; a grid's end in one more, which is read beside the last
     std::uint32_t capacity = 0;                // layers
     std::uint32_t used = 0;                    // layers that may be in use
     std::uint32_t counts[kBlockPixels] = {};   // fragments per pixel
@@ -80,22 +77,6 @@ struct BlockRect {
 bool collectFragments(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint32_t finished,
                       FragmentGrid& grid);
 
-// Sorts each pixel's fragments of a block, front to back.
-void sortBlock(FragmentGrid::Block& block);
-
-// What the keys of a sorted block tell of its pixels that have fragments, a bit each.
-struct BlockOrder {
-  std::uint64_t certain = 0;   // fragments whose depths are not certainly apart are of one plane class: coplanar
-  std::uint64_t coplanar = 0;  // certain, and some are
-  std::uint64_t repeats = 0;   // certain, the one before it in the row too, and both meet the same slots
-
-  BlockOrder without(std::uint64_t pixels) const { return {certain & ~pixels, coplanar & ~pixels, repeats & ~(pixels | pixels << 1)}; }
-};
-BlockOrder orderOfBlock(const FragmentGrid::Block& block, const Tile& tile);
-
-// True where all pixels of a sorted block certainly meet the same slots in the same order, as inside large faces.
-bool sameStacks(const FragmentGrid::Block& block, const Tile& tile);
-
 // The plain z-buffer: keeps the least key of each pixel, nearest[block][64], which the caller has filled with kEmptyKey.
 void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint64_t* nearest);
 
@@ -123,6 +104,8 @@ class NearestGrid {
   std::uint32_t k_;
   Block blocks_[kBlocksPerTile];
 };
+
+struct TileSlot;
 
 // What tells two keys' planes apart, and when they have to be.
 struct KeyDoubt {

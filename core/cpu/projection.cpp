@@ -70,6 +70,13 @@ glm::dvec3 cutEdge(glm::dvec3 a, double da, glm::dvec3 b, double db) {
   return a + (b - a) * (da / (da - db));
 }
 
+// True where the object before is the same mesh in the same place.
+bool repeats(const Scene& scene, std::size_t object) {
+  if (object == 0) return false;
+  const Object &before = scene.objects()[object - 1], &here = scene.objects()[object];
+  return here.mesh == before.mesh && here.worldFromObject == before.worldFromObject;
+}
+
 }  // namespace
 
 Grid gridFor(const View& view) {
@@ -81,57 +88,48 @@ Grid gridFor(const View& view) {
   return grid;
 }
 
-namespace {
-
-// True where the object before is the same mesh in the same place.
-bool repeats(const Scene& scene, std::size_t object) {
-  if (object == 0) return false;
-  const Object &before = scene.objects()[object - 1], &here = scene.objects()[object];
-  return here.mesh == before.mesh && here.worldFromObject == before.worldFromObject;
-}
-
-}  // namespace
-
 Projection project(const Scene& scene, const View& view) {
   Projection result;
   result.grid = gridFor(view);
   const std::size_t objectCount = scene.objects().size();
   result.reachesEye.assign(objectCount, 0);
+  std::vector<std::uint8_t> shares(objectCount);
   std::uint64_t count = 0;
-  for (std::size_t object = 0; object < objectCount; ++object) {
-    const bool shares = repeats(scene, object);
-    result.firstVertex.push_back(shares ? result.firstVertex.back() : count);
-    if (!shares) count += scene.objects()[object].mesh->vertices.size();
+  for (std::size_t i = 0; i < objectCount; ++i) {
+    shares[i] = repeats(scene, i);
+    result.firstVertex.push_back(shares[i] ? result.firstVertex.back() : count);
+    if (!shares[i]) count += scene.objects()[i].mesh->vertices.size();
   }
   result.vertices.resize(count);
 
   const Camera camera(view);
   const Frame frame = frameOf(view, result.grid);
   const double nearest = nearDistance(scene, view);
-  const auto projectVertex = [&](const Object& object, const glm::dvec3& vertex, std::atomic_ref<std::uint8_t> reachesEye) {
+  const auto projectVertex = [&](const Object& object, const glm::dvec3& vertex, bool& reachesEye) {
     const glm::dvec3 p = camera(transformPoint(object.worldFromObject, vertex));
     const bool behind = view.perspective && !(p.z >= nearest);
-    if (behind) reachesEye.store(1, std::memory_order_relaxed);
+    reachesEye |= behind;
     const double w = camera.weight(p), u = p.x / w, v = p.y / w;
     const bool fits = !behind && std::abs(u) <= frame.limitX && std::abs(v) <= frame.limitY;
     return fits ? snap(u, v, frame) : glm::ivec2(kOffGrid, 0);
   };
   parallelFor(objectCount, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i) {
-      if (repeats(scene, i)) continue;
+      if (shares[i]) continue;
       const Object& object = scene.objects()[i];
       glm::ivec2* const out = result.vertices.data() + result.firstVertex[i];
       const std::size_t vertexCount = object.mesh->vertices.size();
       const auto projectRange = [&](std::size_t first, std::size_t last) {
-        const std::atomic_ref<std::uint8_t> reachesEye(result.reachesEye[i]);
+        bool reachesEye = false;
         for (std::size_t v = first; v != last; ++v) out[v] = projectVertex(object, object.mesh->vertices[v], reachesEye);
+        if (reachesEye) std::atomic_ref<std::uint8_t>(result.reachesEye[i]).store(1, std::memory_order_relaxed);
       };
       if (vertexCount <= kGrain) projectRange(0, vertexCount);
       else parallelFor(vertexCount, kGrain, projectRange);
     }
   });
   for (std::size_t i = 1; i < objectCount; ++i) {
-    if (repeats(scene, i)) result.reachesEye[i] = result.reachesEye[i - 1];
+    if (shares[i]) result.reachesEye[i] = result.reachesEye[i - 1];
   }
   return result;
 }

@@ -10,6 +10,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include "core/cpu/block_order.h"
 #include "core/cpu/block_window.h"
 #include "core/cpu/walk.h"
 #include "core/error.h"

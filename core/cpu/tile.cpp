@@ -225,7 +225,7 @@ void Tile::scaleDepths(bool decideAllExactly) {
       common = std::max(common, error);
     } else {
       coarse = true;
-      slots[t.slot].coarse = decideAllExactly ? kMostUncertainty : roundedUp(std::min(error, double{kMostUncertainty}));
+      slots[t.slot].coarseBound = decideAllExactly ? kMostUncertainty : roundedUp(std::min(error, double{kMostUncertainty}));
     }
   }
   format.uncertainty = roundedUp(common);
@@ -250,7 +250,7 @@ void Tile::orderByDepth() {
     const TriangleSetup& t = setups[i];
     const double least = t.dc + std::min(t.da * t.x0, t.da * t.x1) + std::min(t.db * t.y0, t.db * t.y1);
     const auto depth = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(least, t.lo, t.hi) - kBias));
-    const std::uint64_t reach = std::max(slots[t.slot].coarse, format.uncertainty) + 2;
+    const std::uint64_t reach = std::max(slots[t.slot].coarseBound, format.uncertainty) + 2;
     order_.push_back((depth > reach ? depth - reach : 0) << indexBits | i);
   }
   std::sort(order_.begin(), order_.end());
@@ -260,8 +260,7 @@ void Tile::orderByDepth() {
     sortedRoom_.push_back(setups[o & ((std::uint64_t{1} << indexBits) - 1)]);
     nearest.push_back(o >> indexBits);
   }
-  setupRoom_.swap(sortedRoom_);
-  setups = setupRoom_;
+  setups = sortedRoom_;
 }
 
 }  // namespace copeel::cpu

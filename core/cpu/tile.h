@@ -19,7 +19,7 @@ struct TileSlot {
   std::uint32_t planeClass;
   std::uint32_t object;          // index into Tile::objects
   std::int32_t side;             // +1 entered here (front-facing), -1 left here
-  std::uint64_t coarse;          // bound of the depth error, key units, where it is greater than kCoarse; else 0
+  std::uint64_t coarseBound;     // of the depth error, key units, where it is greater than kCoarse; else 0
 };
 
 // Order values (depth_planes.h) that triangles reach, their error bounds included; as made, of none.
@@ -37,10 +37,13 @@ struct TileObject {
   DepthRange range{};                       // after setUp: in the tile
 };
 
-inline constexpr std::uint64_t kCoarse = 4096;   // key units; below, all slots of a tile carry one common bound (KeyFormat)
+inline constexpr std::uint64_t kCoarse = 4096;   // key units; up to it, all slots of a tile carry one common bound (KeyFormat)
 
 class Tile {
  public:
+  Tile() = default;
+  Tile(const Tile&) = delete;   // it holds spans of its own
+
   // Finds the objects that touch a tile. O(references).
   void begin(const Frame& frame, int index);
   // Sets the triangles of the kept objects up, and finds their depths.

@@ -64,7 +64,7 @@ class Walker {
 
   // On Finished the fold holds the pixel's result. `x`, `y` are image coordinates.
   Walk walk(const PixelStack& stack, int x, int y) {
-    const bool exactly = stack.count > most_ || (coarse_ && hasCoarse(stack));
+    const bool exactly = stack.count > most_ || (coarse_ && stack.hasCoarse());
     const bool repeated = !exactly && remembers_ && repeats(stack);
     if (!repeated) remembers_ = false;
     const Walk outcome = repeated ? Walk::Finished : exactly ? walkExactly(stack, x, y) : walkCertain(stack, x, y);
@@ -77,13 +77,6 @@ class Walker {
   const WalkCounts& counts() const { return counts_; }
 
  private:
-  static bool hasCoarse(const PixelStack& stack) {
-    for (std::uint32_t i = 0; i < stack.count; ++i) {
-      if (stack.slots[stack.slot(i)].coarse) return true;
-    }
-    return false;
-  }
-
   // True when the pixel starts with the fragments that decided the last one, its groups as certainly apart.
   bool repeats(const PixelStack& stack) const {
     const auto count = static_cast<std::uint32_t>(met_.size());

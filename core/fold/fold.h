@@ -27,8 +27,15 @@ struct PixelStack {
 
   std::uint64_t key(std::uint32_t i) const { return keys[std::size_t{i} * stride]; }
   std::uint32_t slot(std::uint32_t i) const { return format.slotOf(key(i)); }
+  // Some depth is so uncertain that its neighbours in order may not be adjacent.
+  bool hasCoarse() const {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (slots[slot(i)].coarseBound) return true;
+    }
+    return false;
+  }
   // Bound of the depth error of a slot, key units.
-  std::uint64_t uncertaintyOf(std::uint32_t slot) const { return std::max(slots[slot].coarse, format.uncertainty); }
+  std::uint64_t uncertaintyOf(std::uint32_t slot) const { return std::max(slots[slot].coarseBound, format.uncertainty); }
   // Bounds of the true depth, in key units.
   cpu::DepthRange depth(std::uint32_t i) const {
     const std::uint64_t k = key(i);

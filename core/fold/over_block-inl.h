@@ -51,9 +51,9 @@ HWY_INLINE HWY_ATTR void finishPixel(const State& state, const double* backgroun
     const auto color = hn::Add(state.color[part], hn::Mul(hn::Load(d, background + lane), hn::Set(d, state.transmittance)));
     hn::StoreU(hn::DemoteTo(Floats(), color), Floats(), out.color + lane);
     const auto clamped = hn::Min(hn::Max(color, hn::Zero(d)), hn::Set(d, 255.0));
-    hn::StoreU(hn::DemoteTo(Ints(), hn::Add(clamped, hn::Set(d, 0.5 + 1.0 / 8589934592.0))), Ints(), levels + lane);
+    hn::Store(hn::DemoteTo(Ints(), hn::Add(clamped, hn::Set(d, 0.5 + 1.0 / 8589934592.0))), Ints(), levels + lane);
   }
-  out.levels = static_cast<std::uint32_t>(levels[0] | levels[1] << 8 | levels[2] << 16);
+  out.bytes = {static_cast<std::uint8_t>(levels[0]), static_cast<std::uint8_t>(levels[1]), static_cast<std::uint8_t>(levels[2])};
 }
 
 HWY_INLINE HWY_ATTR void blendDistinct(const OverBlock& from, int pixel, State& state) {

@@ -7,13 +7,14 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "core/cpu/kernels.h"
+#include "core/cpu/block_order.h"
+#include "core/image/image.h"
 
 namespace copeel::fold {
 
 struct BlendedPixel {
-  float color[4];       // 0 … 255 over the background; the last is undefined
-  std::uint32_t levels;   // of 8 bits: red in the lowest
+  float color[4];   // 0 … 255 over the background; the last is undefined
+  Rgb8 bytes;
 };
 
 struct OverBlock {

@@ -60,7 +60,7 @@ Mesh readBinary(const Source& source) {
       if (!std::isfinite(c[k])) source.failAtByte(place + 4 * k, "a coordinate is not a finite number: {}", c[k]);
     }
     std::array<std::uint32_t, 3> corners;
-    for (int k = 0; k < 3; ++k) corners[k] = builder.addOwnVertex({c[3 * k], c[3 * k + 1], c[3 * k + 2]}, place);
+    for (int k = 0; k < 3; ++k) corners[k] = builder.sharedVertex({c[3 * k], c[3 * k + 1], c[3 * k + 2]}, place);
     builder.addFace(corners, place);
   }
   return builder.finish();
@@ -100,7 +100,7 @@ class AsciiStl {
     corners_.clear();
     for (std::string_view word = cursor_.token(); !sameWord(word, "endloop"); word = cursor_.token()) {
       if (!sameWord(word, "vertex")) cursor_.fail("vertex or endloop should be here, found {}", quoted(word));
-      corners_.push_back(builder_.addOwnVertex(cursor_.point("a coordinate"), place));
+      corners_.push_back(builder_.sharedVertex(cursor_.point("a coordinate"), place));
     }
     expect("endfacet");
     if (corners_.size() < 3) cursor_.fail("a facet of {} vertices", corners_.size());

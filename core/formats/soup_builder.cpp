@@ -21,7 +21,7 @@ void SoupBuilder::reserve(std::size_t vertices, std::size_t triangles) {
   mesh_.triangles.reserve(triangles);
 }
 
-std::uint32_t SoupBuilder::addOwnVertex(const glm::dvec3& position, std::size_t place) {
+std::uint32_t SoupBuilder::sharedVertex(const glm::dvec3& position, std::size_t place) {
   constexpr std::size_t kPlaces = 1 << 16;
   constexpr std::uint32_t kNone = ~std::uint32_t{0};
   if (lately_.empty()) lately_.assign(kPlaces, kNone);

@@ -28,7 +28,7 @@ class SoupBuilder {
   void addVertex(const glm::dvec3& position) { mesh_.vertices.push_back(position); }
   // For files that give each face vertices of its own: the index of a vertex with these coordinates, to the bit. One met lately serves again, which
   // most do: it takes a quarter of the memory, and time to project.
-  std::uint32_t addOwnVertex(const glm::dvec3& position, std::size_t place);
+  std::uint32_t sharedVertex(const glm::dvec3& position, std::size_t place);
   // Colours as in Mesh::colors. Of the faces from here on; where no face has one, those of the vertices count, given for each vertex or for none.
   void setFaceColor(const glm::vec4& color);
   void addVertexColor(const glm::vec4& color) { vertexColors_.push_back(color); }

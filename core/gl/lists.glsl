@@ -14,7 +14,7 @@ layout(std430, binding = COPEEL_BUFFER_METHOD + 1) buffer Nodes { Node nodes[]; 
 layout(std430, binding = COPEEL_BUFFER_METHOD + 2) coherent buffer Wanted { uint wanted[]; };   // nodes of each memory, 16 words apart
 layout(std430, binding = COPEEL_BUFFER_METHOD + 3) coherent buffer Longest { uint longest; };   // list that was put off
 
-uint headOf(uint list) { return pixelIndex() * uint(HEAD_WORDS) + list; }
+uint headOf(uint list) { return pixelIndex() * uint(LISTS) + list; }
 
 #if defined(PASS_GATHER)
 
@@ -48,13 +48,10 @@ uint lengthOf(uint list) {
 // Lists follow one another in depth, so one sort of all their fragments leaves each where it is. They are walked in one loop: lanes that run in lock step
 // then wait for the longest pixel, not for the longest list of each bucket.
 void main() {
-  uint rest[HEAD_WORDS], count = 0u, left = 0u;
-  for (int word = 0; word < HEAD_WORDS; word += HEAD_WORDS_PER_TEXEL) {
-    uvec3 words = texelFetch(headTexels, (int(headOf(0u)) + word) / HEAD_WORDS_PER_TEXEL).rgb;
-    for (int i = 0; i < HEAD_WORDS_PER_TEXEL; ++i) {
-      rest[word + i] = words[i];
-      left |= words[i];
-    }
+  uint rest[LISTS], count = 0u, left = 0u;
+  for (uint list = 0u; list < uint(LISTS); ++list) {
+    rest[list] = texelFetch(headTexels, int(headOf(list))).r;
+    left |= rest[list];
   }
   if (left == 0u) foldSkip();
   while (left != 0u && count < uint(SORT_SHORT)) {

@@ -35,13 +35,11 @@ void deliverLists(gl::Frame& frame, const char* file, const gl::Defines& defines
 }  // namespace
 
 MethodCounts drawLists(gl::Frame& frame, const MethodOptions& options, const char* file, std::uint32_t lists) {
-  // Heads are read three at a time, or one where there is but one.
-  const std::uint32_t wordsPerTexel = lists > 1 ? 3 : 1, headWords = (lists + wordsPerTexel - 1) / wordsPerTexel * wordsPerTexel;
-  const gl::Defines defines = {{"LISTS", fmt::format("{}", lists)}, {"HEAD_WORDS", fmt::format("{}", headWords)}, {"HEAD_WORDS_PER_TEXEL", fmt::format("{}", wordsPerTexel)}};
+  const gl::Defines defines = {{"LISTS", fmt::format("{}", lists)}};
   gl::Defines gatherDefines = drawOccupancy(frame, options);
   gatherDefines.insert(gatherDefines.end(), defines.begin(), defines.end());
   const gl::Program& gather = frame.geometryProgram(file, "GATHER", gatherDefines);
-  const gl::Buffer& heads = frame.pixelWords("heads", 0, headWords);
+  const gl::Buffer& heads = frame.pixelWords("heads", 0, lists);
   const gl::Buffer& counters = frame.buffer("wanted", 2, lists * kCounterWords * 4);
   // One node of each memory is one place.
   const std::size_t placeBytes = kNodeBytes * lists;
@@ -67,7 +65,7 @@ MethodCounts drawLists(gl::Frame& frame, const MethodOptions& options, const cha
     capacity = std::min(wanted, most);
   }
   if (counts.overflow > 0 && options.allOrNothing) return counts;
-  frame.texels(heads, COPEEL_TEXTURE_METHOD, lists > 1 ? GL_RGB32UI : GL_R32UI);
+  frame.texels(heads, COPEEL_TEXTURE_METHOD, GL_R32UI);
   frame.texels(frame.buffer("nodes", 1, capacity * placeBytes), COPEEL_TEXTURE_METHOD + 1, GL_RGB32UI);
   deliverLists(frame, file, defines);
   return counts;

@@ -7,7 +7,7 @@
 namespace copeel {
 
 // Gathers into `lists` lists a pixel by pass GATHER of `file`, grows their memory and repeats while it is too small, and delivers them front list first.
-// Bytes: 4 heads a pixel (one, or `lists` rounded up to threes) + 12 a node + 64 lists + 4. Throws Error{Machine} for a list of more than 20,000 fragments (core/gl/lists.glsl).
+// Bytes: 4 lists a pixel + 12 a node + 64 lists + 4. Throws Error{Machine} for a list of more than 20,000 fragments (core/gl/lists.glsl).
 MethodCounts drawLists(gl::Frame& frame, const MethodOptions& options, const char* file, std::uint32_t lists);
 
 }  // namespace copeel

@@ -59,7 +59,7 @@ const std::vector<MethodInfo>& methods() {
       {"k-plus", "k+-buffer: spin lock or interlock, the K nearest", "Vasilakis, Fudos 2014", "gl",
        "1", "8 K + 8 a pixel", "2 K + 2", "min(K, N) / N", false, drawKPlus, "+occupancy"},
       {"bun-ll", "bucket peeling with linked lists", "Vasilakis, Fudos 2013, 3.1.4", "gl",
-       "1, 2 where it grows", "24 a pixel + 60 times the fullest bucket + 324", "3 N + 8 to 15 N + 8", "1", true, drawBunLl},
+       "1, 2 where it grows", "20 a pixel + 60 times the fullest bucket + 324", "3 N + 8 to 15 N + 8", "1", true, drawBunLl},
       {"srab", "stencil-routed A-buffer: the first K drawn", "Myers, Bavoil 2007", "gl",
        "1", "8 K + 4 a pixel", "3 K + 2", "min(K, N) / N", false, drawSrab, "+occupancy"},
       {"multi-kb", "multi-layer depth peeling via fragment sort", "Liu 2006", "gl",

@@ -69,8 +69,8 @@ TEST(GlBuffers, passesAndBytesEqualTheirFormulas) {
     EXPECT_EQ(ll.passes, 1u) << scene.name;
     // The fullest bucket is not known here; all of them are as large, and hold everything.
     const gl::FrameCounts bunLl = rendered.stacksOf("bun-ll").counts;
-    const std::size_t places5 = (bunLl.methodBytes - pixels * 24 - 324) / 60, least = (4 * pixels + 4) / 5;
-    EXPECT_EQ(bunLl.methodBytes, pixels * 24 + 60 * places5 + 324) << scene.name;
+    const std::size_t places5 = (bunLl.methodBytes - pixels * 20 - 324) / 60, least = (4 * pixels + 4) / 5;
+    EXPECT_EQ(bunLl.methodBytes, pixels * 20 + 60 * places5 + 324) << scene.name;
     EXPECT_EQ(bunLl.passes, 1 + bunLl.method.repeats) << scene.name;
     EXPECT_LE(bunLl.passes, 2u) << scene.name;
     EXPECT_GE(places5, std::max(least, (rendered.fragments() + 4) / 5)) << scene.name;
@@ -115,7 +115,7 @@ TEST(GlBuffers, whatMemoryDoesNotHoldIsCounted) {
       const GlStacks stacks = rendered.stacksOf(method, {.k = 1, .memoryBytes = bytes});
       EXPECT_GT(stacks.counts.method.overflow, 0u) << method << ", " << bytes;
       EXPECT_EQ(stacks.delivered + stacks.counts.method.overflow, all) << method << ", " << bytes;
-      EXPECT_LE(stacks.counts.methodBytes, std::max<std::uint64_t>(bytes, 64 * 48 * 24 + 400)) << method << ", " << bytes;
+      EXPECT_LE(stacks.counts.methodBytes, std::max<std::uint64_t>(bytes, 64 * 48 * 20 + 400)) << method << ", " << bytes;
     }
     EXPECT_EQ(rendered.stacksOf(method).delivered, all) << method;
   }

@@ -1,0 +1,28 @@
+// Dispatch; the code is in block_order-inl.h, compiled once per target.
+#include "core/cpu/block_order.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "core/cpu/tile.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/cpu/block_order-inl.h"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "core/cpu/block_order-inl.h"
+
+namespace copeel::cpu {
+
+HWY_EXPORT(SortBlock);
+HWY_EXPORT(OrderOfBlock);
+HWY_EXPORT(SameStacks);
+
+void sortBlock(FragmentGrid::Block& block) { HWY_DYNAMIC_DISPATCH(SortBlock)(block); }
+
+BlockOrder orderOfBlock(const FragmentGrid::Block& block, const Tile& tile) { return HWY_DYNAMIC_DISPATCH(OrderOfBlock)(block, tile); }
+
+bool sameStacks(const FragmentGrid::Block& block, const Tile& tile) { return HWY_DYNAMIC_DISPATCH(SameStacks)(block, tile); }
+
+}  // namespace copeel::cpu
