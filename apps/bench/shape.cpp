@@ -62,13 +62,14 @@ class ShapeFold {
     open_ = 0;
     return false;
   }
-  void endPixel(int, int) {
+  void endPixels(const PixelRect& rect) {
     if (groups_.empty()) return;
+    const auto pixels = static_cast<std::uint64_t>(rect.width) * rect.height;
     const std::scoped_lock lock(mutex_);
-    ++shape_.coveredPixels;
-    shape_.coplanarPixels += largestOf(groups_) > 1;
-    shape_.depths += groups_.size();
-    shape_.fragments += fragmentsOf(groups_);
+    shape_.coveredPixels += pixels;
+    shape_.coplanarPixels += largestOf(groups_) > 1 ? pixels : 0;
+    shape_.depths += pixels * groups_.size();
+    shape_.fragments += pixels * fragmentsOf(groups_);
     keep(shape_.fullest, groups_);
   }
 

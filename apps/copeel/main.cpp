@@ -26,17 +26,27 @@ namespace {
 
 using copeel::ExitCode;
 
+using AddCommand = void (*)(CLI::App&);
+
+constexpr std::pair<std::string_view, AddCommand> kCommands[] = {
+    {"csg", copeel::csg::addCommand},
+    {"oit", copeel::oit::addCommand},
+    {"bench", copeel::bench::addCommand},
+    {"methods", copeel::addMethodsCommand},
+};
+
 constexpr std::pair<const char*, const char*> kNotBuilt[] = {
     {"wireframe", "line drawings without hidden lines"},
     {"collide", "where meshes cross"},      {"coplanar", "which faces lie on each other"},
     {"view", "a window to look around in"}, {"validate", "compares with exact references"},
 };
 
-void addCommands(CLI::App& program) {
-  copeel::csg::addCommand(program);
-  copeel::oit::addCommand(program);
-  copeel::bench::addCommand(program);
-  copeel::addMethodsCommand(program);
+// The one that is asked for, as the options of the others take time; all, where it is none of these.
+void addCommands(CLI::App& program, std::string_view asked) {
+  for (const auto& [name, add] : kCommands) {
+    if (name == asked) return add(program);
+  }
+  for (const auto& [name, add] : kCommands) add(program);
   for (const auto& [name, what] : kNotBuilt) {
     CLI::App* command = program.add_subcommand(name, fmt::format("{} (not built in this version)", what));
     command->allow_extras();
@@ -61,7 +71,7 @@ int run(int argc, char** argv) {
   CLI::App program{"Pictures of what overlaps: CSG models and transparent meshes whose coincident faces are right.", "copeel"};
   program.set_version_flag("--version", "copeel " COPEEL_VERSION);
   program.require_subcommand(1);
-  addCommands(program);
+  addCommands(program, argc > 1 ? argv[1] : "");
   const auto named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && program.get_subcommands(named).empty()) {
     return fail(ExitCode::Usage, fmt::format("no command '{}' (see copeel --help)", argv[1]));

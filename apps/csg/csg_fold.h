@@ -39,7 +39,7 @@ class PixelSink {
  public:
   virtual ~PixelSink() = default;
   virtual PixelColor color(std::span<const Surface> surfaces) const = 0;
-  virtual void pixel(int x, int y, std::span<const Surface> surfaces, const PixelColor& color) = 0;
+  virtual void pixels(const PixelRect& rect, std::span<const Surface> surfaces, const PixelColor& color) = 0;
 };
 
 class CsgFold {
@@ -63,11 +63,11 @@ class CsgFold {
     group_[groupCount_++] = slot;
   }
   bool closeGroup();
-  void endPixel(int x, int y) {
+  void endPixels(const PixelRect& rect) {
     if (surfaces_.empty()) return;   // images start as background
     if (!hasColor_) color_ = sink_.color(surfaces_);
     hasColor_ = true;
-    sink_.pixel(x, y, surfaces_, color_);
+    sink_.pixels(rect, surfaces_, color_);
   }
 
  private:

@@ -121,7 +121,8 @@ bool GlPass::State::deliver(const View& view, PixelSink& sink) const {
       surfaces.push_back({primitive, renderer.planes().classOf(object, facet), surface[2], surface[1]});
     }
     if (surfaces.empty()) continue;
-    sink.pixel(static_cast<int>(pixel % static_cast<std::size_t>(view.width)), static_cast<int>(pixel / static_cast<std::size_t>(view.width)), surfaces, sink.color(surfaces));
+    const int x = static_cast<int>(pixel % static_cast<std::size_t>(view.width)), y = static_cast<int>(pixel / static_cast<std::size_t>(view.width));
+    sink.pixels({x, y, 1, 1}, surfaces, sink.color(surfaces));
   }
   return true;
 }

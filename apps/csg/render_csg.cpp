@@ -171,7 +171,7 @@ void Renderer::State::drawPass(const View& view, PixelSink& sink) {
   if (options.method->keeps == Keeps::Nearest) {
     cpu::renderNearest(frame, [&](int x, int y, const cpu::TileSlot& slot, const cpu::Tile& tile) {
       const Surface surface{slot.primitive, slot.planeClass, tile.objects[slot.object].object, 0};
-      sink.pixel(x, y, {&surface, 1}, sink.color({&surface, 1}));
+      sink.pixels({x, y, 1, 1}, {&surface, 1}, sink.color({&surface, 1}));
     });
   } else {
     drawTiles(frame, sink);
@@ -211,15 +211,16 @@ class FrameSink : public PixelSink {
     const glm::dvec3 color = look_.blend(surfaces);
     return sum_ ? PixelColor{{}, glm::vec3(color - look_.blend({}))} : PixelColor{toRgb8(color), {}};
   }
-  void pixel(int x, int y, std::span<const Surface> surfaces, const PixelColor& color) override {
-    if (sum_) sum_->at(x, y) += color.added;
-    else if (!frame_.color.pixels.empty()) frame_.color.at(x, y) = color.levels;
+  void pixels(const PixelRect& rect, std::span<const Surface> surfaces, const PixelColor& color) override {
+    if (sum_) forEachOf(rect, [&](int x, int y) { sum_->at(x, y) += color.added; });
+    else if (!frame_.color.pixels.empty()) frame_.color.fill(rect, color.levels);
     if (frame_.depth.pixels.empty() && frame_.ids.pixels.empty() && !shown_) return;
     const auto solid = std::find_if(surfaces.begin(), surfaces.end(), [](const Surface& s) { return s.part == 0; });
     if (solid == surfaces.end()) return;
-    if (shown_) shown_->at(x, y) = {solid->leaf, solid->planeClass};
-    if (!frame_.ids.pixels.empty()) frame_.ids.at(x, y) = static_cast<std::uint16_t>(std::min<std::uint32_t>(solid->leaf + 1, 65535));
-    if (!frame_.depth.pixels.empty()) frame_.depth.at(x, y) = static_cast<float>(distanceAt(depths_[solid->planeClass], *view_, x, y));
+    if (shown_) shown_->fill(rect, {solid->leaf, solid->planeClass});
+    if (!frame_.ids.pixels.empty()) frame_.ids.fill(rect, static_cast<std::uint16_t>(std::min<std::uint32_t>(solid->leaf + 1, 65535)));
+    if (frame_.depth.pixels.empty()) return;
+    forEachOf(rect, [&](int x, int y) { frame_.depth.at(x, y) = static_cast<float>(distanceAt(depths_[solid->planeClass], *view_, x, y)); });
   }
 
  private:

@@ -77,7 +77,7 @@ void GlPass::draw(const View& view, const fold::OverTables& tables, const glm::v
       const std::uint32_t* pixel = words.data() + i * kOverResultWords;
       if (pixel[9] == 0) continue;
       const int x = static_cast<int>(i % width), y = static_cast<int>(i / width);
-      targets.put(x, y, resultOf(pixel, background));
+      targets.put({x, y, 1, 1}, resultOf(pixel, background));
       if (pixel[8] == 0 || !(targets.depth || targets.ids)) continue;
       const std::uint32_t object = state.scene.objectOf(pixel[8] - 1);
       const std::uint32_t facet = state.scene.objects()[object].mesh->facetOf(pixel[8] - 1 - state.scene.firstPrimitive(object));

@@ -66,7 +66,7 @@ std::uint64_t OverFold::foldBlock(const cpu::FragmentGrid::Block& block, const c
     result.color = {from.color[0], from.color[1], from.color[2]};
     result.bytes = from.bytes;
     if (wantsNearest) result.nearest = nearestSeen({block.keys.get() + p, block.counts[p], cpu::kBlockPixels, tile.format, tile.slots.data()});
-    canvas_.put(x + p % cpu::kBlockSize, y + p / cpu::kBlockSize, result, tile);
+    canvas_.put({x + p % cpu::kBlockSize, y + p / cpu::kBlockSize, 1, 1}, result, tile);
   }
   return coplanar;
 }

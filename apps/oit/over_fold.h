@@ -43,11 +43,11 @@ struct Targets {
   bool counts() const { return layers || coplanar; }
   bool any() const { return color || floats || depth || ids || counts(); }
 
-  void put(int x, int y, const PixelResult& result) const {
-    if (color) color->at(x, y) = result.bytes;
-    if (floats) floats->at(x, y) = result.color;
-    if (layers) layers->at(x, y) = saturated(result.layers);
-    if (coplanar) coplanar->at(x, y) = saturated(result.largestGroup);
+  void put(const PixelRect& rect, const PixelResult& result) const {
+    if (color) color->fill(rect, result.bytes);
+    if (floats) floats->fill(rect, result.color);
+    if (layers) layers->fill(rect, saturated(result.layers));
+    if (coplanar) coplanar->fill(rect, saturated(result.largestGroup));
   }
   void putNearest(int x, int y, std::uint32_t object, double distance) const {
     if (depth) depth->at(x, y) = static_cast<float>(distance);
@@ -62,11 +62,13 @@ class Canvas {
  public:
   Canvas(const cpu::Frame& frame, const Targets& targets) : frame_(frame), targets_(targets) {}
 
-  void put(int x, int y, const PixelResult& result, const cpu::Tile& tile) const {
-    targets_.put(x, y, result);
+  void put(const PixelRect& rect, const PixelResult& result, const cpu::Tile& tile) const {
+    targets_.put(rect, result);
     if (!result.nearest || !(targets_.depth || targets_.ids)) return;
     const cpu::TileSlot& slot = *result.nearest;
-    targets_.putNearest(x, y, tile.objects[slot.object].object, targets_.depth ? distanceAt(frame_.depths[slot.planeClass], frame_.view, x, y) : 0);
+    forEachOf(rect, [&](int x, int y) {
+      targets_.putNearest(x, y, tile.objects[slot.object].object, targets_.depth ? distanceAt(frame_.depths[slot.planeClass], frame_.view, x, y) : 0);
+    });
   }
   const Targets& targets() const { return targets_; }
 
@@ -109,10 +111,10 @@ class OverFold {
     for (; groupCount_ > 0; --groupCount_) blend(group_[groupCount_ - 1]);
     return mayEnd_ && fold::overEnough(state_);
   }
-  void endPixel(int x, int y) {
+  void endPixels(const PixelRect& rect) {
     if (result_.layers == 0) return;
     if (!ready_) finishResult();
-    canvas_.put(x, y, result_, *tile_);
+    canvas_.put(rect, result_, *tile_);
   }
 
   // Whole blocks at once (core/fold/fold.h). Layers and groups are counted pixel by pixel.

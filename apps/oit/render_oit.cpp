@@ -74,7 +74,7 @@ void Renderer::State::drawPass(const View& view, const Targets& targets) {
   if (options.method->keeps == Keeps::Nearest) {
     const OverFold fold = makeFold();
     cpu::renderNearest(frame, [&](int x, int y, const cpu::TileSlot& slot, const cpu::Tile& tile) {
-      canvas.put(x, y, fold.single(slot, tile), tile);
+      canvas.put({x, y, 1, 1}, fold.single(slot, tile), tile);
     });
     return;
   }

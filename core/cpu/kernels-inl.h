@@ -60,7 +60,7 @@ HWY_INLINE HWY_ATTR std::uint64_t blockCoverage(const TriangleSetup& t, int x, i
   return bits & columns;
 }
 
-// The keys of so many pixels of a row. x, y: the first one in the tile.
+// keyAt of so many pixels of a row. x, y: the first one in the tile.
 template <int kCount>
 HWY_INLINE HWY_ATTR void rowKeys(const TriangleSetup& t, int x, int y, KeyFormat format, std::uint64_t* keys) {
   const hn::CappedTag<double, kCount> d;
@@ -71,7 +71,6 @@ HWY_INLINE HWY_ATTR void rowKeys(const TriangleSetup& t, int x, int y, KeyFormat
   for (std::size_t lane = 0; lane < kCount; lane += hn::Lanes(d)) {
     const auto at = hn::Add(first, hn::Load(d, kIota + lane));
     const auto depth = hn::Min(hn::Max(hn::Add(hn::Mul(da, at), base), lo), hi);
-    // The mantissa of 2^52 + n is n: shifted up it loses exponent and sign, shifted back it leaves the two clear bits of a key.
     const auto bits = hn::ShiftRight<64 - kKeyBits>(hn::ShiftLeftSame(hn::BitCast(u, depth), 64 - format.depthBits));
     hn::Store(hn::Or(bits, slot), u, keys + lane);
   }
@@ -144,7 +143,7 @@ HWY_INLINE HWY_ATTR void forEachCovered(const TriangleSetup& t, KeyFormat format
   }
 }
 
-// `visit(block, pixel, key)` for the samples of a small triangle. The keys come of the same operations as in rowKeys.
+// `visit(block, pixel, key)` for the samples of a small triangle.
 template <class Visit>
 HWY_INLINE HWY_ATTR void forEachSample(const TriangleSetup& t, KeyFormat format, Visit visit) {
   if (t.covered) return forEachCovered(t, format, visit);
@@ -157,12 +156,8 @@ HWY_INLINE HWY_ATTR void forEachSample(const TriangleSetup& t, KeyFormat format,
       const Window w{x, y, log, std::min(t.x1 - x + 1, mostColumns), std::min(t.y1 - y + 1, mostRows)};
       for (std::uint64_t covered = windowCoverage(t, w); covered; covered &= covered - 1) {
         const int bit = __builtin_ctzll(covered), px = x + (bit & (mostColumns - 1)), py = y + (bit >> log);
-        const double affine = t.da * static_cast<double>(px) + (t.db * static_cast<double>(py) + t.dc);
-        const double depth = std::min(std::max(affine, t.lo), t.hi);
-        std::uint64_t bits;
-        __builtin_memcpy(&bits, &depth, sizeof bits);
         visit(blockAt(static_cast<unsigned>(px), static_cast<unsigned>(py)), pixelAt(static_cast<unsigned>(px), static_cast<unsigned>(py)),
-              (bits << (64 - format.depthBits)) >> (64 - kKeyBits) | t.slot);
+              keyAt(t, px, py, format));
       }
     }
   }

@@ -6,6 +6,8 @@
 // have the order of (depth, slot), which makes sorting a matter of min and max. Slots follow primitive ids, so ties have one order.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -42,6 +44,14 @@ struct KeyFormat {
   std::uint64_t depthOf(std::uint64_t key) const { return key >> slotBits(); }
   std::uint32_t slotOf(std::uint64_t key) const { return static_cast<std::uint32_t>(key & ((std::uint64_t{1} << slotBits()) - 1)); }
 };
+
+// The key of a triangle in a pixel of the tile.
+inline std::uint64_t keyAt(const TriangleSetup& t, int x, int y, KeyFormat format) {
+  const double affine = t.da * static_cast<double>(x) + (t.db * static_cast<double>(y) + t.dc);
+  // The mantissa of 2^52 + n is n: shifted up it loses exponent and sign, shifted back it leaves the two clear bits of a key.
+  const auto bits = std::bit_cast<std::uint64_t>(std::min(std::max(affine, t.lo), t.hi));
+  return (bits << (64 - format.depthBits)) >> (64 - kKeyBits) | t.slot;
+}
 
 // All fragments of the pixels of a tile, block by block, layer by layer.
 class FragmentGrid {

@@ -12,6 +12,7 @@
 
 #include "core/cpu/block_order.h"
 #include "core/cpu/block_window.h"
+#include "core/cpu/even_block.h"
 #include "core/cpu/walk.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -41,6 +42,9 @@ inline constexpr double kNarrowFrom = 8;
 // Samples of a triangle from which on ordering triangles by depth saves a k-buffer more than it costs.
 inline constexpr double kSamplesToOrder = 16;
 
+// Samples of a triangle from which on blocks are looked at that faces cover wholly.
+inline constexpr double kSamplesOfLargeFace = 4 * kBlockPixels;
+
 // Draws tiles with one fold. Owned by one thread.
 template <Fold F>
 class TileRenderer {
@@ -65,7 +69,8 @@ class TileRenderer {
     finished_ = narrows_ ? emptyBlocks() : 0;
     if (finished_ == kAllBlocks) return;
     tile_.finish(farthest, options_.decideAllExactly);
-    drawRect(wholeTile());
+    if (hasLargeFaces()) drawEvenBlocks();
+    if (finished_ != kAllBlocks) drawRect(wholeTile());
   }
   TileCounts counts() const {
     TileCounts counts = counts_;
@@ -89,6 +94,35 @@ class TileRenderer {
   BlockRect wholeTile() const {
     return {0, 0, (tile_.width + kBlockSize - 1) / kBlockSize, (tile_.height + kBlockSize - 1) / kBlockSize};
   }
+  // Of the image.
+  PixelRect pixelsOf(int block) const {
+    const int x = block % kBlocksPerSide * kBlockSize, y = block / kBlocksPerSide * kBlockSize;
+    return {tile_.x0 + x, tile_.y0 + y, std::min(kBlockSize, tile_.width - x), std::min(kBlockSize, tile_.height - y)};
+  }
+
+  bool hasLargeFaces() const {
+    const double samples = tile_.layers() * tile_.width * tile_.height;
+    return !tile_.coarse && !fold_.needsWholeStack() && samples >= kSamplesOfLargeFace * static_cast<double>(tile_.setups.size());
+  }
+
+  void drawEvenBlocks() {
+    walker_.begin(tile_, kNoLimit);
+    const BlockRect rect = wholeTile();
+    for (int by = rect.by0; by < rect.by1; ++by) {
+      for (int bx = rect.bx0; bx < rect.bx1; ++bx) {
+        const int b = by * kBlocksPerSide + bx;
+        const PixelRect pixels = pixelsOf(b);
+        if (finished_ >> b & 1 || !even_.find(tile_, pixels)) continue;
+        finished_ |= 1u << b;
+        if (even_.empty()) continue;
+        const PixelStack stack = even_.stack(tile_);
+        walker_.walk(stack, pixels.x, pixels.y);
+        endAll(pixels);
+        count(stack.count, static_cast<std::uint64_t>(pixels.width) * pixels.height);
+      }
+    }
+  }
+
   bool keepsNearest() const { return options_.nearest != kAllFragments; }
   void keepAll() {
     for (TileObject& object : tile_.objects) object.keep = true;
@@ -158,14 +192,15 @@ class TileRenderer {
   }
 
   void countFragments(int b) {
+    if (grid_.block(b).used == 0) return;
     for (std::uint32_t n : grid_.block(b).counts) count(n);
   }
 
-  // The fragments of a pixel.
-  void count(std::uint32_t n) {
-    counts_.fragments += n;
-    counts_.captured += std::min(n, options_.nearest);
-    counts_.coveredPixels += n > 0;
+  // The fragments of each of some pixels.
+  void count(std::uint32_t n, std::uint64_t pixels = 1) {
+    counts_.fragments += pixels * n;
+    counts_.captured += pixels * std::min(n, options_.nearest);
+    counts_.coveredPixels += n > 0 ? pixels : 0;
     counts_.depthComplexityMax = std::max<std::uint64_t>(counts_.depthComplexityMax, n);
   }
 
@@ -219,13 +254,12 @@ class TileRenderer {
   }
 
   bool foldBlock(FragmentGrid::Block& block, int b, std::uint64_t limit) {
-    const int x = tile_.x0 + b % kBlocksPerSide * kBlockSize, y = tile_.y0 + b / kBlocksPerSide * kBlockSize;
+    const auto [x, y, columns, rows] = pixelsOf(b);
     sortBlock(block);
     walker_.begin(tile_, limit);
     const bool whole = limit == kNoLimit && !keepsNearest() && !narrows_;
     if (whole) foldCertain(block, b, x, y);
     const bool alike = whole && !done_[b] && sameStacks(block, tile_);
-    const int columns = std::min(kBlockSize, tile_.x0 + tile_.width - x), rows = std::min(kBlockSize, tile_.y0 + tile_.height - y);
     bool all = true;
     for (int row = 0; row < rows; ++row) {
       for (int column = 0; column < columns; ++column) {
@@ -234,9 +268,12 @@ class TileRenderer {
         const PixelStack stack{block.keys.get() + p, block.counts[p], kBlockPixels, tile_.format, tile_.slots.data(),
                                narrows_ ? window_.before(p) : std::span<const std::uint32_t>{}};
         if (walker_.walk(stack, x + column, y + row) == Walk::Finished) {
-          fold_.endPixel(x + column, y + row);
+          if (alike && p == 0 && walker_.remembers()) {
+            endAll({x, y, columns, rows});
+            return true;
+          }
+          fold_.endPixels({x + column, y + row, 1, 1});
           done_[b] |= std::uint64_t{1} << p;
-          if (alike && p == 0 && walker_.remembers()) return repeatFirst(b, x, y);
         } else {
           all = false;
         }
@@ -245,12 +282,10 @@ class TileRenderer {
     return all;
   }
 
-  // All pixels of the block are as the first, which has been walked.
-  bool repeatFirst(int b, int x, int y) {
-    walker_.repeat(kBlockPixels - 1);
-    for (int p = 1; p < kBlockPixels; ++p) fold_.endPixel(x + p % kBlockSize, y + p / kBlockSize);
-    done_[b] = ~std::uint64_t{0};
-    return true;
+  // All pixels of a block are as the first, which has been walked.
+  void endAll(const PixelRect& block) {
+    walker_.repeat(static_cast<std::uint64_t>(block.width) * block.height - 1);
+    fold_.endPixels(block);
   }
 
   const Frame& frame_;
@@ -264,6 +299,7 @@ class TileRenderer {
   std::uint64_t done_[kBlocksPerTile] = {};   // pixels, by block
   std::uint32_t finished_ = 0;                // blocks
   std::vector<DepthRange> ranges_;            // [block][object]
+  EvenBlock even_;
   BlockWindow window_;
   bool narrows_ = false;
   TileCounts counts_;

@@ -13,6 +13,7 @@
 #include <span>
 
 #include "core/cpu/tile.h"
+#include "core/image/image.h"
 
 namespace copeel {
 
@@ -47,7 +48,7 @@ struct PixelStack {
 
 template <class F>
 concept Fold = requires(F fold, cpu::Tile& tile, std::span<const cpu::DepthRange> ranges, const PixelStack& stack, std::uint32_t slot,
-                        int x, int y) {
+                        const PixelRect& rect) {
   // Looks at the tile's objects, may drop some; false: no pixel of the tile shows anything.
   { fold.beginTile(tile) } -> std::same_as<bool>;
   // Looks at the depths of the kept objects, may drop more; returns the order value (depth_planes.h) beyond which nothing matters,
@@ -67,7 +68,7 @@ concept Fold = requires(F fold, cpu::Tile& tile, std::span<const cpu::DepthRange
   fold.fragment(slot);
   // The fragments since the last call lie at one depth. True: enough, nothing behind matters.
   { fold.closeGroup() } -> std::same_as<bool>;
-  fold.endPixel(x, y);                      // image coordinates
+  fold.endPixels(rect);                     // of the image: all are as the one folded last
 };
 
 }  // namespace copeel

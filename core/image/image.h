@@ -11,6 +11,18 @@
 
 namespace copeel {
 
+// Columns x … x + width - 1 of rows y … y + height - 1.
+struct PixelRect {
+  int x, y, width, height;
+};
+
+template <class Visit>
+void forEachOf(const PixelRect& rect, Visit visit) {
+  for (int y = rect.y; y < rect.y + rect.height; ++y) {
+    for (int x = rect.x; x < rect.x + rect.width; ++x) visit(x, y);
+  }
+}
+
 template <class T>
 struct Image {
   int width = 0;
@@ -25,6 +37,11 @@ struct Image {
     image.width = w, image.height = h;
     image.pixels.resize(static_cast<std::size_t>(w) * h);
     return image;
+  }
+  void fill(const PixelRect& rect, const T& value) {
+    T* const first = &at(rect.x, rect.y);
+    std::fill_n(first, rect.width, value);
+    for (int row = 1; row < rect.height; ++row) std::copy_n(first, rect.width, first + static_cast<std::size_t>(row) * width);
   }
   T& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * width + x]; }
   const T& at(int x, int y) const { return pixels[static_cast<std::size_t>(y) * width + x]; }

@@ -4,12 +4,16 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/image/image.h"
 
 namespace copeel {
 
-void writePng(const std::string& path, const Image<Rgb8>& image);                // 8-bit RGB, or indexed where 256 colours are enough
+// A PNG file in parts, one after the other: 8-bit RGB, or indexed where 256 colours are enough.
+using Bytes = std::vector<std::uint8_t>;
+std::vector<Bytes> encodePng(const Image<Rgb8>& image);
+void writePng(const std::string& path, const Image<Rgb8>& image);
 void writePfm(const std::string& path, const Image<float>& image);               // float32, little-endian, bottom row first, +inf kept
 void writePgm(const std::string& path, const Image<std::uint16_t>& image);       // 16-bit binary, big-endian as PGM says
 

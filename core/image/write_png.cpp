@@ -26,8 +26,6 @@ namespace {
 constexpr int kStripPixels = 1 << 17;    // enough for deflate to learn from, few enough for several threads
 constexpr int kCompressionLevel = 2;     // 1 to 3 take the same time, 6 thrice as long for two thirds of the bytes
 
-using Bytes = std::vector<std::uint8_t>;
-
 // Up to 256 colours, numbered in the order they come in; found by open addressing.
 class Palette {
  public:
@@ -206,15 +204,19 @@ Bytes headOf(const Image<Rgb8>& image, const Palette& palette) {
 
 }  // namespace
 
-void writePng(const std::string& path, const Image<Rgb8>& image) {
+std::vector<Bytes> encodePng(const Image<Rgb8>& image) {
   static_assert(sizeof(Rgb8) == 3, "rows are copied as they are");
-  OutputFile file(path);
   const std::vector<Strip> strips = stripsOf(image);
   const Palette palette = paletteOf(strips);
-  const auto write = [&](const Bytes& bytes) { file.write(std::as_bytes(std::span(bytes))); };
-  write(headOf(image, palette));
-  for (const Bytes& chunk : dataChunks(strips, palette)) write(chunk);
-  write(chunkOf("IEND", {}));
+  std::vector<Bytes> parts = dataChunks(strips, palette);
+  parts.insert(parts.begin(), headOf(image, palette));
+  parts.push_back(chunkOf("IEND", {}));
+  return parts;
+}
+
+void writePng(const std::string& path, const Image<Rgb8>& image) {
+  OutputFile file(path);
+  for (const Bytes& part : encodePng(image)) file.write(std::as_bytes(std::span(part)));
   file.commit();
 }
 

@@ -69,6 +69,25 @@ TEST(Fragments, aTileThatOverflowsItsBudgetIsSplitAndLosesNothing) {
   }
 }
 
+// Inside large faces a pixel stands for its block (even_block.h), which no exact decision allows.
+TEST(Fragments, blocksOfLargeFacesAreAsTheirPixels) {
+  const Mesh crossing = joined(quad({-1, -1, -0.3}, {2, -1, 0.4}, {2, 2, 0.4}, {-1, 2, -0.3}), quad({-1, -1, 0.2}, {2, -1, 0.2}, {2, 2, -0.1}, {-1, 2, -0.1}));
+  for (const Mesh& mesh : {pile(3, 0.1), pile(5, 0), crossing, joined(crossing, pile(2, 0)), joined(crossing, crossing), box({0, 0, 0}, {0.4, 0.5, 0.1})}) {
+    for (const int size : {16, 37, 90}) {
+      const Prepared p(mesh, above(size));
+      cpu::TileOptions exactly;
+      exactly.decideAllExactly = true;
+      const Stacks blocks = stacksOf(p.frame), pixels = stacksOf(p.frame, exactly);
+      expectSame(pixels, blocks);
+      EXPECT_EQ(blocks.counts.fragments, pixels.counts.fragments);
+      EXPECT_EQ(blocks.counts.captured, pixels.counts.captured);
+      EXPECT_EQ(blocks.counts.coveredPixels, pixels.counts.coveredPixels);
+      EXPECT_EQ(blocks.counts.depthComplexityMax, pixels.counts.depthComplexityMax);
+      EXPECT_EQ(blocks.counts.walk.coplanarPixels, pixels.counts.walk.coplanarPixels);
+    }
+  }
+}
+
 // Few groups are wanted, so that tiles of many triangles are met in batches; a budget splits them after a batch or two.
 TEST(Fragments, batchesAndSplitsGiveWhatOneBatchGives) {
   for (const Mesh& mesh : {pile(1000, 1e-3), joined(pile(500, 0), pile(500, -1e-4)), sphere(0.4, 100, 70)}) {

@@ -77,10 +77,12 @@ class StackFold {
     return enough();
   }
   bool enough() const { return opaque_ || groups_.size() >= wanted_.groups; }
-  void endPixel(int x, int y) {
-    const std::size_t i = static_cast<std::size_t>(y) * stacks_.width + x;
-    stacks_.pixels[i] = groups_;
-    ++stacks_.ends[i];
+  void endPixels(const PixelRect& rect) {
+    forEachOf(rect, [&](int x, int y) {
+      const std::size_t i = static_cast<std::size_t>(y) * stacks_.width + x;
+      stacks_.pixels[i] = groups_;
+      ++stacks_.ends[i];
+    });
   }
 
  private:

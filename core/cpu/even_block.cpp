@@ -1,0 +1,49 @@
+// Corners are enough: the true depths of two planes differ by an affine function, which is positive in a rectangle if it is in its corners.
+#include "core/cpu/even_block.h"
+
+#include <algorithm>
+
+namespace copeel::cpu {
+namespace {
+
+enum class Cover : std::uint8_t { None, Some, All };
+
+Cover coverOf(const TriangleSetup& t, const PixelRect& block) {
+  const int right = block.x + block.width - 1, bottom = block.y + block.height - 1;
+  if (t.x1 < block.x || t.x0 > right || t.y1 < block.y || t.y0 > bottom) return Cover::None;
+  // Edges that the triangle's bounds make redundant were dropped, so the bounds count.
+  bool all = t.x0 <= block.x && t.x1 >= right && t.y0 <= block.y && t.y1 >= bottom;
+  for (int i = 0; i < 3; ++i) {
+    const int corner = t.a[i] * block.x + t.b[i] * block.y + t.c[i];
+    const int across = t.a[i] * (block.width - 1), down = t.b[i] * (block.height - 1);
+    if (corner + std::max(across, 0) + std::max(down, 0) < 0) return Cover::None;
+    all &= corner + std::min(across, 0) + std::min(down, 0) >= 0;
+  }
+  return all ? Cover::All : Cover::Some;
+}
+
+}  // namespace
+
+bool EvenBlock::find(const Tile& tile, const PixelRect& pixels) {
+  const KeyFormat& format = tile.format;
+  const PixelRect block{pixels.x - tile.x0, pixels.y - tile.y0, pixels.width, pixels.height};
+  const int right = block.x + block.width - 1, bottom = block.y + block.height - 1;
+  layers_.clear();
+  for (const TriangleSetup& t : tile.setups) {
+    const Cover cover = coverOf(t, block);
+    if (cover == Cover::Some) return false;
+    if (cover == Cover::None) continue;
+    layers_.push_back({keyAt(t, block.x, block.y, format), keyAt(t, right, block.y, format), keyAt(t, block.x, bottom, format), keyAt(t, right, bottom, format)});
+  }
+  std::sort(layers_.begin(), layers_.end());
+  for (std::size_t i = 1; i < layers_.size(); ++i) {
+    const Layer &near = layers_[i - 1], &far = layers_[i];
+    if (tile.slots[format.slotOf(near[0])].planeClass == tile.slots[format.slotOf(far[0])].planeClass) continue;
+    for (std::uint32_t corner = 0; corner < kCorners; ++corner) {
+      if (format.depthOf(far[corner]) <= format.depthOf(near[corner]) + 2 * format.uncertainty) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace copeel::cpu
