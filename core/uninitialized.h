@@ -1,30 +1,48 @@
-// A vector that leaves new elements as the memory is, where their type lets it: for what is written right after, in parallel.
+// An array that leaves new elements as the memory is: for what is written right after, in parallel. Not a std::vector with another allocator:
+// that visits all elements to destroy them, and below -O2 g++ keeps the empty loop.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
-#include <new>
-#include <utility>
-#include <vector>
+#include <type_traits>
 
 namespace copeel {
 
 template <class T>
-struct LeavesUninitialized : std::allocator<T> {
-  LeavesUninitialized() = default;
-  template <class U>
-  LeavesUninitialized(const LeavesUninitialized<U>&) noexcept {}
-  template <class U>
-  struct rebind {
-    using other = LeavesUninitialized<U>;
-  };
-  template <class U, class... Arguments>
-  void construct(U* at, Arguments&&... arguments) {
-    if constexpr (sizeof...(Arguments) == 0) ::new (static_cast<void*>(at)) U;
-    else ::new (static_cast<void*>(at)) U(std::forward<Arguments>(arguments)...);
-  }
-};
+class UninitializedVector {
+  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
 
-template <class T>
-using UninitializedVector = std::vector<T, LeavesUninitialized<T>>;
+ public:
+  UninitializedVector() = default;
+  explicit UninitializedVector(std::size_t size) : elements_(std::make_unique_for_overwrite<T[]>(size)), size_(size) {}
+  UninitializedVector(std::size_t size, const T& value) : UninitializedVector(size) { std::fill_n(data(), size, value); }
+  UninitializedVector(const UninitializedVector& other) : UninitializedVector(other.size_) { std::copy_n(other.data(), size_, data()); }
+  UninitializedVector(UninitializedVector&& other) noexcept { swap(other); }
+  UninitializedVector& operator=(UninitializedVector other) noexcept {
+    swap(other);
+    return *this;
+  }
+  void swap(UninitializedVector& other) noexcept {
+    elements_.swap(other.elements_);
+    std::swap(size_, other.size_);
+  }
+
+  T* data() { return elements_.get(); }
+  const T* data() const { return elements_.get(); }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  T* begin() { return data(); }
+  T* end() { return data() + size_; }
+  const T* begin() const { return data(); }
+  const T* end() const { return data() + size_; }
+  T& operator[](std::size_t i) { return elements_[i]; }
+  const T& operator[](std::size_t i) const { return elements_[i]; }
+  friend bool operator==(const UninitializedVector& a, const UninitializedVector& b) { return std::equal(a.begin(), a.end(), b.begin(), b.end()); }
+
+ private:
+  std::unique_ptr<T[]> elements_;
+  std::size_t size_ = 0;
+};
 
 }  // namespace copeel

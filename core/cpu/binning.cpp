@@ -162,7 +162,7 @@ Bins binTriangles(const Scene& scene, const View& view, const Projection& projec
     for (auto& p : place) sum += std::exchange(p[tile], sum);
   }
   bins.first[tiles] = sum;
-  bins.references.resize(sum);
+  bins.references = UninitializedVector<std::uint32_t>(sum);
   forGroups([&](ChunkBins& part, std::vector<std::uint64_t>& places) {
     for (const Entry& e : part.entries) bins.references[places[e.tile]++] = e.reference;
     part.entries = {};

@@ -100,7 +100,7 @@ Projection project(const Scene& scene, const View& view) {
     result.firstVertex.push_back(shares[i] ? result.firstVertex.back() : count);
     if (!shares[i]) count += scene.objects()[i].mesh->vertices.size();
   }
-  result.vertices.resize(count);
+  result.vertices = UninitializedVector<glm::ivec2>(count);
 
   const Camera camera(view);
   const Frame frame = frameOf(view, result.grid);

@@ -13,30 +13,8 @@ namespace {
 
 constexpr int kMarginPx = 1;   // what rounding and the rasterizer's sub-pixel grid may add to a projected box is far below it
 
-// The pixels whose centres a box may cover: all of them where a corner is not in front of the eye.
-ObjectBox windowBox(const Box& box, const glm::dmat4& worldFromObject, const View& view, double nearest) {
-  glm::dvec2 lo(HUGE_VAL), hi(-HUGE_VAL);
-  const glm::dvec2 center = 0.5 * glm::dvec2(view.width, view.height) - 0.5 - view.offset;
-  for (int corner = 0; corner < 8 && !box.empty(); ++corner) {
-    const glm::dvec3 point(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z);
-    const glm::dvec3 p = transformPoint(worldFromObject, point) - view.eye;
-    const double t = view.perspective ? glm::dot(view.forward, p) : 1.0;
-    if (view.perspective && t < nearest) return {0, 0, view.width, view.height, 0, 0};
-    const glm::dvec2 at = center + glm::dvec2(glm::dot(view.right, p) / (glm::dot(view.right, view.right) * t),
-                                              glm::dot(view.down, p) / (glm::dot(view.down, view.down) * t));
-    lo = glm::min(lo, at);
-    hi = glm::max(hi, at);
-  }
-  // Clamped before they are whole numbers, which would not hold them all.
-  const glm::dvec2 size(view.width, view.height);
-  lo = glm::clamp(glm::floor(lo) - double(kMarginPx), glm::dvec2(0), size);
-  hi = glm::clamp(glm::ceil(hi) + double(kMarginPx) + 1.0, glm::dvec2(0), size);
-  if (box.empty() || lo.x >= hi.x || lo.y >= hi.y) return {};
-  return {int(lo.x), int(lo.y), int(hi.x - lo.x), int(hi.y - lo.y), 0, 0};
-}
-
 // The range of a plane's order value over the box's pixels. Every rounding step of the sum is monotonic in u and in v, so the corners bound it.
-std::pair<double, double> orderRange(const DepthPlane& plane, const ObjectBox& box, const View& view) {
+std::pair<double, double> orderRange(const DepthPlane& plane, const PixelRect& box, const View& view) {
   double least = HUGE_VAL, most = -HUGE_VAL;
   for (int corner = 0; corner < 4; ++corner) {
     const double u = double(corner & 1 ? box.x + box.width - 1 : box.x) - (0.5 * view.width - 0.5 - view.offset.x);
@@ -50,6 +28,27 @@ std::pair<double, double> orderRange(const DepthPlane& plane, const ObjectBox& b
 
 }  // namespace
 
+PixelRect windowBox(const Box& box, const glm::dmat4& worldFromObject, const View& view, double nearest) {
+  glm::dvec2 lo(HUGE_VAL), hi(-HUGE_VAL);
+  const glm::dvec2 center = 0.5 * glm::dvec2(view.width, view.height) - 0.5 - view.offset;
+  for (int corner = 0; corner < 8 && !box.empty(); ++corner) {
+    const glm::dvec3 point(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z);
+    const glm::dvec3 p = transformPoint(worldFromObject, point) - view.eye;
+    const double t = view.perspective ? glm::dot(view.forward, p) : 1.0;
+    if (view.perspective && t < nearest) return {0, 0, view.width, view.height};
+    const glm::dvec2 at = center + glm::dvec2(glm::dot(view.right, p) / (glm::dot(view.right, view.right) * t),
+                                              glm::dot(view.down, p) / (glm::dot(view.down, view.down) * t));
+    lo = glm::min(lo, at);
+    hi = glm::max(hi, at);
+  }
+  // Clamped before they are whole numbers, which would not hold them all.
+  const glm::dvec2 size(view.width, view.height);
+  lo = glm::clamp(glm::floor(lo) - double(kMarginPx), glm::dvec2(0), size);
+  hi = glm::clamp(glm::ceil(hi) + double(kMarginPx) + 1.0, glm::dvec2(0), size);
+  if (box.empty() || lo.x >= hi.x || lo.y >= hi.y) return {};
+  return {int(lo.x), int(lo.y), int(hi.x - lo.x), int(hi.y - lo.y)};
+}
+
 std::vector<ObjectBox> objectBoxes(const Scene& scene, const PlaneClasses& planes, const View& view, const DepthPlanes& depths,
                                    bool hardwareDepth) {
   const DepthScale scale = depthScale(depths, view.perspective);
@@ -61,15 +60,15 @@ std::vector<ObjectBox> objectBoxes(const Scene& scene, const PlaneClasses& plane
     const Object& placed = scene.objects()[object];
     const auto [meshBox, isNew] = meshBoxes.try_emplace(placed.mesh.get());
     if (isNew) meshBox->second = boundingBox(*placed.mesh);
-    ObjectBox box = windowBox(meshBox->second, placed.worldFromObject, view, nearest);
+    ObjectBox box{windowBox(meshBox->second, placed.worldFromObject, view, nearest)};
     box.leastKey = hardwareDepth ? COPEEL_KEY_LEAST : COPEEL_KEY_NONE;
     box.greatestKey = hardwareDepth ? COPEEL_KEY_NONE : 0;
-    const std::size_t facets = hardwareDepth || box.width == 0 ? 0 : placed.mesh->facetCount();
+    const std::size_t facets = hardwareDepth || box.pixels.width == 0 ? 0 : placed.mesh->facetCount();
     for (std::uint32_t facet = 0; facet < facets; ++facet) {
       const std::uint32_t planeClass = planes.classOf(object, facet);
       if (seenBy[planeClass] == object) continue;
       seenBy[planeClass] = object;
-      const auto [least, most] = orderRange(depths[planeClass], box, view);
+      const auto [least, most] = orderRange(depths[planeClass], box.pixels, view);
       box.leastKey = std::min(box.leastKey, keyOf(scale, least));
       box.greatestKey = std::max(box.greatestKey, keyOf(scale, most));
     }
@@ -90,18 +89,15 @@ void Culling::restart() {
   asked_ = false;
 }
 
-void Culling::ask(const Program& box, const std::function<void()>& drawBox) {
-  glEnable(GL_SCISSOR_TEST);
+void Culling::ask(const Program& box, const std::function<void(const PixelRect&)>& drawBox) {
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     if (!drawn_[i]) continue;
-    glScissor(boxes_[i].x, boxes_[i].y, boxes_[i].width, boxes_[i].height);
     box.set("leastKey", boxes_[i].leastKey);
     box.set("greatestKey", boxes_[i].greatestKey);
     glBeginQuery(GL_ANY_SAMPLES_PASSED, queries_[i]);
-    drawBox();
+    drawBox(boxes_[i].pixels);
     glEndQuery(GL_ANY_SAMPLES_PASSED);
   }
-  glDisable(GL_SCISSOR_TEST);
   asked_ = true;
 }
 

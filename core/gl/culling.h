@@ -13,13 +13,17 @@
 #include "core/gl/depth_keys.h"
 #include "core/gl/objects.h"
 #include "core/gl/program.h"
+#include "core/image/image.h"
 
 namespace copeel::gl {
 
 struct ObjectBox {
-  int x = 0, y = 0, width = 0, height = 0;   // pixels
+  PixelRect pixels{};
   std::uint32_t leastKey = 0, greatestKey = 0;
 };
+
+// The pixels whose centres a box may cover: all of them where a corner is nearer than `nearest`.
+PixelRect windowBox(const Box& box, const glm::dmat4& worldFromObject, const View& view, double nearest);
 
 std::vector<ObjectBox> objectBoxes(const Scene& scene, const PlaneClasses& planes, const View& view, const DepthPlanes& depths,
                                    bool hardwareDepth);
@@ -29,8 +33,8 @@ class Culling {
   explicit Culling(std::vector<ObjectBox> boxes);
 
   void restart();   // all objects are to be drawn
-  // Asks for each object that is still drawn whether `box` passes any sample of its box; drawBox draws what the scissor leaves.
-  void ask(const Program& box, const std::function<void()>& drawBox);
+  // Asks for each object that is still drawn whether `box` passes any sample of its box; drawBox draws its pixels.
+  void ask(const Program& box, const std::function<void(const PixelRect&)>& drawBox);
   // Draws of the objects [begin, end) those that have something left, and returns their number.
   std::uint32_t draw(std::uint32_t begin, std::uint32_t end, const std::function<void(std::uint32_t, std::uint32_t)>& drawRun);
 

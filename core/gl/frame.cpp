@@ -103,6 +103,7 @@ void Frame::setView(const View& view, const DepthPlanes& depths) {
     width_ = view.width, height_ = view.height;
     makeTargets();
   }
+  sceneBox_ = windowBox(scene_.scene().bounds(), glm::dmat4(1.0), view, nearDistance(scene_.scene(), view));
   project();
   writeFrameBlock(depths);
   checkErrors("setting up the view");
@@ -128,6 +129,7 @@ void Frame::makeTargets() {
   buffers_.clear();
   targets_.clear();
   look.reset();
+  writtenBox_ = whole();
 }
 
 void Frame::project() {
@@ -176,12 +178,14 @@ void Frame::writeFrameBlock(const DepthPlanes& depths) {
 }
 
 void Frame::setFold(const FoldSource& fold) {
+  if (fold.resultWords != fold_.resultWords) writtenBox_ = whole();
   fold_ = fold;
   const std::uint64_t stateBytes = pixelCount() * fold.stateWords * 2 * sizeof(std::uint32_t);
   const std::uint64_t resultBytes = pixelCount() * fold.resultWords * sizeof(std::uint32_t);
   if (stateBytes + resultBytes > kMostFoldBytes) {
     failMachine("gl: {} MB for the state of {} pixels; use --backend cpu", (stateBytes + resultBytes) >> 20, pixelCount());
   }
+  if (results_.bytes() < resultBytes) writtenBox_ = whole();
   grow(results_, resultBytes);
   for (std::size_t i = 0; i < fold.tables.size(); ++i) {
     if (fold.tables[i].texels != GL_NONE) texels(*fold.tables[i].buffer, static_cast<int>(COPEEL_TEXTURE_FOLD_TABLE + i), fold.tables[i].texels);
@@ -299,9 +303,16 @@ void Frame::begin() {
   for (std::size_t i = 0; i < fold_.tables.size(); ++i) {
     if (fold_.tables[i].texels == GL_NONE) fold_.tables[i].buffer->bindStorage(static_cast<GLuint>(COPEEL_BUFFER_FOLD_TABLE + i));
   }
+  emptyOutside();
   noDepthTest();
   usesStates_ = false;
   if (fold_.inMemory) beginStates();
+}
+
+// Results outside of the scene's box are those of pixels without fragments, which are zeros. They stay so while the box does.
+void Frame::emptyOutside() {
+  if (!contains(sceneBox_, writtenBox_)) results_.clear(0);
+  writtenBox_ = sceneBox_;
 }
 
 void Frame::makeStates() {
@@ -359,14 +370,17 @@ void Frame::cullObjects(const Program& box) {
   if (!culling_) culling_ = std::make_unique<Culling>(objectBoxes(scene_.scene(), scene_.planes(), view_, depths_, depthSource_ == DepthSource::Hardware));
   if (!culls_) culling_->restart();
   culls_ = true;
-  culling_->ask(box, [&] { drawPixels(box); });
+  culling_->ask(box, [&](const PixelRect& pixels) { drawPixels(box, pixels); });
 }
 
-void Frame::drawPixels(const Program& program) {
+void Frame::drawPixels(const Program& program, const PixelRect& pixels) {
   glBindFramebuffer(GL_FRAMEBUFFER, noTargets_);
   glUseProgram(program.name());
   glBindVertexArray(noVertices_);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(pixels.x, pixels.y, pixels.width, pixels.height);
   glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_SCISSOR_TEST);
   glMemoryBarrier(kAfterPass);
 }
 

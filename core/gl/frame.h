@@ -15,6 +15,7 @@
 #include "core/gl/culling.h"
 #include "core/gl/program.h"
 #include "core/gl/scene.h"
+#include "core/image/image.h"
 
 namespace copeel::gl {
 
@@ -93,7 +94,9 @@ class Frame {
   }
   void drawGeometry(const Program& program) { beginPass(); drawObjects(program, 0, static_cast<std::uint32_t>(scene_.scene().objects().size())); }
   void drawObjects(const Program& program, std::uint32_t begin, std::uint32_t end);
-  void drawPixels(const Program& program);
+  // The pixels that the scene may cover, or some.
+  void drawPixels(const Program& program) { drawPixels(program, sceneBox_); }
+  void drawPixels(const Program& program, const PixelRect& pixels);
   // Before a method's passes, for a fold with the define HIDE_BEHIND_OPAQUE: finds the nearest fragment of the marked objects in each pixel; passes then leave out
   // what lies behind it. One pass over those objects, 4 bytes a pixel.
   void hideBehind(const std::vector<std::uint8_t>& opaque);
@@ -130,7 +133,9 @@ class Frame {
   void finish();  // joins the fold's sides into its results where there are states, and waits for the device
 
  private:
+  PixelRect whole() const { return {0, 0, width_, height_}; }
   void makeTargets();
+  void emptyOutside();
   void project();
   void writeFrameBlock(const DepthPlanes& depths);
 
@@ -141,6 +146,8 @@ class Frame {
   DepthPlanes depths_;
   FoldSource fold_;
   int width_ = 0, height_ = 0;
+  PixelRect sceneBox_{};
+  PixelRect writtenBox_{};    // results are zeros outside
   Buffer clip_, frameBlock_, planes_, states_, results_, opaque_;
   struct Named {
     Buffer buffer;

@@ -14,7 +14,13 @@ namespace copeel {
 // Columns x … x + width - 1 of rows y … y + height - 1.
 struct PixelRect {
   int x, y, width, height;
+  bool empty() const { return width <= 0 || height <= 0; }
 };
+
+inline bool contains(const PixelRect& outer, const PixelRect& inner) {
+  const bool across = inner.x >= outer.x && inner.x + inner.width <= outer.x + outer.width;
+  return inner.empty() || (across && inner.y >= outer.y && inner.y + inner.height <= outer.y + outer.height);
+}
 
 template <class Visit>
 void forEachOf(const PixelRect& rect, Visit visit) {
@@ -35,7 +41,7 @@ struct Image {
   static Image uninitialized(int w, int h) {
     Image image;
     image.width = w, image.height = h;
-    image.pixels.resize(static_cast<std::size_t>(w) * h);
+    image.pixels = UninitializedVector<T>(static_cast<std::size_t>(w) * h);
     return image;
   }
   void fill(const PixelRect& rect, const T& value) {

@@ -28,10 +28,7 @@ MethodCounts drawSb(gl::Frame& frame, const MethodOptions& options) {
   groups.clear(0);
   frame.drawGeometry(frame.geometryProgram(file, "COUNT", defines));
   frame.drawPixels(frame.pixelProgram(file, "PLACE", defines));
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(0, 0, 1, 1);
-  frame.drawPixels(frame.pixelProgram(file, "PREFIX", defines));
-  glDisable(GL_SCISSOR_TEST);
+  frame.drawPixels(frame.pixelProgram(file, "PREFIX", defines), {0, 0, 1, 1});
 
   // The size of the memory is the one number that has to come back from the device.
   const std::size_t total = groups.read<std::uint32_t>(2 * kGroups + 1).back();

@@ -83,7 +83,7 @@ TEST(Png, everyTruncationIsRefused) {
 TEST(Pfm, keepsInfinityAndRunsFromTheBottom) {
   const TemporaryFolder folder;
   Image<float> image(2, 2);
-  image.pixels = {1, 2, std::numeric_limits<float>::infinity(), 1e-40f};
+  image.at(0, 0) = 1, image.at(1, 0) = 2, image.at(0, 1) = std::numeric_limits<float>::infinity(), image.at(1, 1) = 1e-40f;
   writePfm(folder.file("a.pfm"), image);
   const std::string content = contentOf(folder.file("a.pfm"));
   EXPECT_EQ(content.substr(0, 12), "Pf\n2 2\n-1.0\n");
@@ -91,7 +91,7 @@ TEST(Pfm, keepsInfinityAndRunsFromTheBottom) {
   EXPECT_EQ(content.substr(12, 4), std::string("\0\0\x80\x7f", 4)) << "the first sample is the lower left one";
   EXPECT_EQ(readPfm(folder.file("a.pfm")).pixels, image.pixels);
   EXPECT_THROW(readPfm(folder.write("cut.pfm", content.substr(0, content.size() - 1))), Error);
-  EXPECT_EQ(readPfm(folder.write("big.pfm", std::string("Pf\n1 1\n1.0\n\x3f\x80\0\0", 15))).pixels.at(0), 1.0f);
+  EXPECT_EQ(readPfm(folder.write("big.pfm", std::string("Pf\n1 1\n1.0\n\x3f\x80\0\0", 15))).at(0, 0), 1.0f);
 }
 
 TEST(Pgm, isSixteenBitBigEndianFromTheTop) {

@@ -70,5 +70,30 @@ TEST(GlMethods, robustOnesDeliverTheSameStacks) {
   }
 }
 
+// Only pixels that the scene may cover are resolved: those that it covered in the view before are to be empty.
+TEST(GlMethods, nothingStaysOfTheViewBefore) {
+  const Scene scene = spheresAndBoxes();
+  const PlaneClasses planes(scene, 0);
+  const View views[] = {lookAt({3, 2, 4}, {1, 1, 0}, 64, 48, 0.02), lookAt({3, 2, 4}, {-1, -1, 0}, 64, 48, 0.02), lookAt({9, 6, 12}, {0, 0, 0}, 64, 48, 0.02),
+                        lookAt({3, 2, 4}, {30, 0, 0}, 64, 48, 0.02), lookAt({0.1, 0.2, 0.3}, {1, 0, 0}, 40, 50, 0.02)};
+  for (const char* name : {"ll", "f2b-zf", "sb"}) {
+    const auto stacksIn = [&](gl::Renderer& renderer, const View& view, std::uint32_t capacity) {
+      return glStacksOf(renderer, view, findMethod(name)->draw, {}, capacity).stacks;
+    };
+    std::vector<Stacks> expected;
+    for (const View& view : views) {
+      gl::Renderer fresh(scene, planes);
+      expected.push_back(stacksIn(fresh, view, 64));
+    }
+    EXPECT_EQ(expected[3].fragments(), 0u);
+    gl::Renderer renderer(scene, planes);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_EQ(differing(expected[i], stacksIn(renderer, views[i], 64)), 0u) << name << ", view " << i;
+      // The same place and size, but not the same words a pixel.
+      EXPECT_EQ(differing(expected[i], stacksIn(renderer, views[i], 50)), 0u) << name << ", view " << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace copeel::test
