@@ -55,6 +55,12 @@ TEST(Bytes, chooseSimdChangesTheTarget) {
     targets.insert(best = cpu::simdInUse());
   }
   EXPECT_EQ(targets.size(), best == "SSE4" ? 2u : 3u);   // a processor may have no better one
+#ifdef __x86_64__
+  const bool avx512 = __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+  if (avx512) {
+    EXPECT_TRUE(best.starts_with("AVX3")) << best;   // Highway's name of AVX-512
+  }
+#endif
   // The least of them has no vectors: "SCALAR", or Highway's emulation of them by loops.
   cpu::chooseSimd("scalar");
   EXPECT_TRUE(std::set<std::string>({"SCALAR", "EMU128"}).contains(cpu::simdInUse())) << cpu::simdInUse();
