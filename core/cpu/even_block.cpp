@@ -1,4 +1,5 @@
-// Corners are enough: the true depths of two planes differ by an affine function, which is positive in a rectangle if it is in its corners.
+// Corners are enough: the true depths of two planes differ by an affine function, which is positive in a rectangle if it is in its corners. Where
+// a depth is clamped it is not affine.
 #include "core/cpu/even_block.h"
 
 #include <algorithm>
@@ -27,13 +28,18 @@ Cover coverOf(const TriangleSetup& t, const PixelRect& block) {
 bool EvenBlock::find(const Tile& tile, const PixelRect& pixels) {
   const KeyFormat& format = tile.format;
   const PixelRect block{pixels.x - tile.x0, pixels.y - tile.y0, pixels.width, pixels.height};
-  const int right = block.x + block.width - 1, bottom = block.y + block.height - 1;
   layers_.clear();
   for (const TriangleSetup& t : tile.setups) {
     const Cover cover = coverOf(t, block);
     if (cover == Cover::Some) return false;
     if (cover == Cover::None) continue;
-    layers_.push_back({keyAt(t, block.x, block.y, format), keyAt(t, right, block.y, format), keyAt(t, block.x, bottom, format), keyAt(t, right, bottom, format)});
+    Layer& layer = layers_.emplace_back();
+    for (std::uint32_t corner = 0; corner < kCorners; ++corner) {
+      const int x = corner & 1 ? block.x + block.width - 1 : block.x, y = corner & 2 ? block.y + block.height - 1 : block.y;
+      const double depth = depthAt(t, x, y);
+      if (depth < t.lo || depth > t.hi) return false;
+      layer[corner] = keyAt(t, x, y, format);
+    }
   }
   std::sort(layers_.begin(), layers_.end());
   for (std::size_t i = 1; i < layers_.size(); ++i) {

@@ -45,11 +45,12 @@ struct KeyFormat {
   std::uint32_t slotOf(std::uint64_t key) const { return static_cast<std::uint32_t>(key & ((std::uint64_t{1} << slotBits()) - 1)); }
 };
 
-// The key of a triangle in a pixel of the tile.
+// Before it is clamped. x, y: a pixel of the tile.
+inline double depthAt(const TriangleSetup& t, int x, int y) { return t.da * static_cast<double>(x) + (t.db * static_cast<double>(y) + t.dc); }
+
 inline std::uint64_t keyAt(const TriangleSetup& t, int x, int y, KeyFormat format) {
-  const double affine = t.da * static_cast<double>(x) + (t.db * static_cast<double>(y) + t.dc);
   // The mantissa of 2^52 + n is n: shifted up it loses exponent and sign, shifted back it leaves the two clear bits of a key.
-  const auto bits = std::bit_cast<std::uint64_t>(std::min(std::max(affine, t.lo), t.hi));
+  const auto bits = std::bit_cast<std::uint64_t>(std::min(std::max(depthAt(t, x, y), t.lo), t.hi));
   return (bits << (64 - format.depthBits)) >> (64 - kKeyBits) | t.slot;
 }
 

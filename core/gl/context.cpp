@@ -7,10 +7,8 @@
 #include <dlfcn.h>
 #include <sys/resource.h>
 
-#include <epoxy/egl.h>
-#include <epoxy/gl.h>
-
 #include "core/error.h"
+#include "core/gl/functions.h"
 
 namespace copeel::gl {
 namespace {
@@ -59,12 +57,15 @@ void liftDataLimit() {
 
 }  // namespace
 
+bool hasExtension(const char* name) { return epoxy_has_gl_extension(name); }
+
 bool isSoftwareRenderer(const std::string& name) {
   return name.find("llvmpipe") != std::string::npos || name.find("softpipe") != std::string::npos || name.find("SWR") != std::string::npos;
 }
 
 Context::Context() {
   if (!hasEglLibrary()) failMachine("gl: no libEGL.so.1 (Debian package libegl1)");
+  loadFunctions();
   liftDataLimit();
   // A device whose driver is too old leaves the picture to the next one.
   bool any = false;

@@ -21,6 +21,8 @@ class Context {
   bool software_ = false;
 };
 
+bool hasExtension(const char* name);   // of the current context
+
 // By the driver's name of itself.
 bool isSoftwareRenderer(const std::string& name);
 

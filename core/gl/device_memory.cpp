@@ -5,10 +5,9 @@
 #include <limits>
 #include <utility>
 
-#include <epoxy/gl.h>
-
 #include "core/error.h"
 #include "core/gl/context.h"
+#include "core/gl/functions.h"
 
 namespace copeel::gl {
 namespace {

@@ -293,7 +293,7 @@ void Frame::begin() {
   passBegan_.clear();
   culls_ = false;
   writeTargets(0);
-  glViewport(0, 0, width_, height_);
+  drawAtSize(width_, height_);
   glDisable(GL_CULL_FACE);
   // Rows run downwards here, which turns triangles about.
   glFrontFace(GL_CW);
@@ -341,6 +341,8 @@ std::vector<double> Frame::passMs() const {
   for (std::size_t i = 1; i < passBegan_.size(); ++i) all.push_back(std::chrono::duration<double, std::milli>(passBegan_[i] - passBegan_[i - 1]).count());
   return all;
 }
+
+void Frame::drawAtSize(int width, int height) { glViewport(0, 0, width, height); }
 
 void Frame::drawObjects(const Program& program, std::uint32_t begin, std::uint32_t end) {
   // A pass without targets and depth test may read them all.

@@ -94,6 +94,8 @@ class Frame {
   }
   void drawGeometry(const Program& program) { beginPass(); drawObjects(program, 0, static_cast<std::uint32_t>(scene_.scene().objects().size())); }
   void drawObjects(const Program& program, std::uint32_t begin, std::uint32_t end);
+  // Geometry passes draw the view as an image of this size, until the next call or frame.
+  void drawAtSize(int width, int height);
   // The pixels that the scene may cover, or some.
   void drawPixels(const Program& program) { drawPixels(program, sceneBox_); }
   void drawPixels(const Program& program, const PixelRect& pixels);

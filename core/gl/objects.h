@@ -6,9 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include <epoxy/gl.h>
-
 #include "core/gl/device_memory.h"
+#include "core/gl/functions.h"
 
 namespace copeel::gl {
 

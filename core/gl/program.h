@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <epoxy/gl.h>
-
+#include "core/gl/functions.h"
 #include "core/gl/objects.h"
 
 namespace copeel::gl {

@@ -37,9 +37,9 @@ gl::Look lookAtScene(gl::Frame& frame, bool atAllPixels) {
   const std::size_t words = static_cast<std::size_t>(frame.width()) * static_cast<std::size_t>(height);
   const gl::Buffer& seen = frame.buffer("look", 0, words * 4);
   seen.clear(0);
-  glViewport(0, 0, width, height);
+  frame.drawAtSize(width, height);
   frame.drawGeometry(frame.geometryProgram("core/methods/auto.glsl", "LOOK"));
-  glViewport(0, 0, frame.width(), frame.height());
+  frame.drawAtSize(frame.width(), frame.height());
   const std::vector<std::uint32_t> counts = seen.read<std::uint32_t>(words);
   frame.releaseBuffers();
   const std::uint64_t sum = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});

@@ -3,8 +3,7 @@
 // As there: a fragment farther than all that are kept turns back before the lock; an array for small K, a max-heap from K = 17 on.
 // Changed: lock and count share a word. Passes: 1 (+1 with +occupancy). Bytes per pixel: 8 K + 8 (the paper, as k-buffer: 2K + 2 words).
 // Loses: all but the K nearest, R_h = min(K, N) / N, whatever the order of drawing.
-#include <epoxy/gl.h>
-
+#include "core/gl/context.h"
 #include "core/methods/k_buffer.h"
 #include "core/methods/methods_gl.h"
 
@@ -12,7 +11,7 @@ namespace copeel {
 
 MethodCounts drawKPlus(gl::Frame& frame, const MethodOptions& options) {
   gl::Defines defines;
-  if (epoxy_has_gl_extension("GL_ARB_fragment_shader_interlock")) defines.emplace_back("K_INTERLOCK", "1");
+  if (gl::hasExtension("GL_ARB_fragment_shader_interlock")) defines.emplace_back("K_INTERLOCK", "1");
   return drawNearest(frame, options, "core/methods/k_plus.glsl", defines);
 }
 
