@@ -5,6 +5,7 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -49,11 +50,7 @@ Model readMeshFiles(const CommandOptions& options, const std::vector<MeshArgumen
   return model;
 }
 
-// A first picture costs 3 ms more than the next: memory and code are touched for the first time. That is paid with one of nothing much while
-// openscad starts, on one thread, as openscad needs another. A new one: the system gives it a processor of its own, where this one and openscad
-// would share theirs for 20 ms.
-void warmUp(const CommonOptions& common) {
-  if (std::thread::hardware_concurrency() < 2) return;
+void drawAndEncodeCube(const CommonOptions& common) {
   constexpr int kMostSidePx = 1024;
   const Model cube = parseCsg("cube(1);", "", "", {});
   RenderOptions options;
@@ -66,6 +63,17 @@ void warmUp(const CommonOptions& common) {
   Threads(1).execute([&] { encodePng(frame.color); });
 }
 
+// A first picture costs 3 ms more than the next: memory and code are touched for the first time. That is paid with one of nothing much while
+// openscad starts, on one thread, as openscad needs another. A new one: the system gives it a processor of its own, where this one and openscad
+// would share theirs for 20 ms.
+void warmUp(const CommonOptions& common) {
+  if (std::thread::hardware_concurrency() < 2) return;
+  try {
+    std::async(std::launch::async, drawAndEncodeCube, std::cref(common)).get();
+  } catch (const std::system_error&) {   // no thread is to be had
+  }
+}
+
 // openscad is left at its way out: `scad` is to be finished before the model is believed.
 Model readModel(CommandOptions& options, InputKind kind, const std::vector<MeshArgument>& files, std::optional<ScadExport>& scad) {
   ReadOptions read;
@@ -73,7 +81,7 @@ Model readModel(CommandOptions& options, InputKind kind, const std::vector<MeshA
   if (kind == InputKind::Meshes) return readMeshFiles(options, files);
   if (kind == InputKind::Csg) return readCsg(files[0].path, read);
   scad.emplace(files[0].path, read);
-  std::async(std::launch::async, warmUp, std::cref(options.common)).get();
+  warmUp(options.common);
   Model model = scad->model();
   applyViewVariables(files[0].path, read, model, options.common.camera);
   return model;

@@ -1,6 +1,7 @@
 #include "core/gl/context.h"
 
 #include <array>
+#include <atomic>
 #include <cstring>
 #include <vector>
 
@@ -12,6 +13,8 @@
 
 namespace copeel::gl {
 namespace {
+
+std::atomic<int> contexts = 0;   // to terminate a display ends all that are on it
 
 // Devices first: a GPU's own driver answers there. Mesa's surfaceless platform is what is left without one.
 std::vector<EGLDisplay> displays() {
@@ -75,10 +78,11 @@ Context::Context() {
     display_ = display;
     context_ = openContext(display);
     if (context_) break;
-    eglTerminate(display);
+    if (contexts == 0) eglTerminate(display);
   }
   if (!any) failMachine("gl: no EGL display without a window (Debian package libegl-mesa0)");
   if (!context_) failMachine("gl: no OpenGL 4.5 core context here");
+  ++contexts;
   renderer_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   software_ = isSoftwareRenderer(renderer_);
 }
@@ -86,7 +90,12 @@ Context::Context() {
 Context::~Context() {
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
-  eglTerminate(display_);
+  if (--contexts == 0) eglTerminate(display_);
+}
+
+void Context::makeCurrent() const {
+  if (eglGetCurrentContext() == context_) return;
+  if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) failMachine("gl: a context is in use by another thread");
 }
 
 void checkErrors(const char* doing) {

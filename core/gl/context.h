@@ -7,10 +7,11 @@ namespace copeel::gl {
 
 class Context {
  public:
-  Context();    // current on the calling thread from then on; throws Error{Machine}: what is missing, in one line
+  Context();    // throws Error{Machine}: what is missing, in one line
   ~Context();
   Context(const Context&) = delete;
 
+  void makeCurrent() const;   // on the calling thread, as a new one is
   const std::string& renderer() const { return renderer_; }   // the driver's name of itself
   bool isSoftware() const { return software_; }               // llvmpipe or the like
 

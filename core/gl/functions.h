@@ -8,10 +8,10 @@
 // Names as libepoxy has them after `epoxy_`. One that is missing here is an undefined symbol at link time.
 #define COPEEL_GL_FUNCTIONS(F) \
   F(has_egl_extension) F(has_gl_extension) \
-  F(eglBindAPI) F(eglCreateContext) F(eglDestroyContext) F(eglGetPlatformDisplayEXT) F(eglInitialize) F(eglMakeCurrent) F(eglQueryDeviceStringEXT) \
+  F(eglBindAPI) F(eglCreateContext) F(eglDestroyContext) F(eglGetCurrentContext) F(eglGetPlatformDisplayEXT) F(eglInitialize) F(eglMakeCurrent) F(eglQueryDeviceStringEXT) \
   F(eglQueryDevicesEXT) F(eglTerminate) \
   F(glAttachShader) F(glBeginConditionalRender) F(glBeginQuery) F(glBindBuffer) F(glBindBufferBase) F(glBindFramebuffer) F(glBindTextureUnit) \
-  F(glBindVertexArray) F(glCheckNamedFramebufferStatus) F(glClearNamedBufferData) F(glClearNamedFramebufferfv) F(glClearNamedFramebufferuiv) \
+  F(glBindVertexArray) F(glCheckNamedFramebufferStatus) F(glClearNamedBufferSubData) F(glClearNamedFramebufferfv) F(glClearNamedFramebufferuiv) \
   F(glCompileShader) F(glCreateBuffers) F(glCreateFramebuffers) F(glCreateProgram) F(glCreateQueries) F(glCreateShader) F(glCreateTextures) \
   F(glCreateVertexArrays) F(glDeleteBuffers) F(glDeleteFramebuffers) F(glDeleteProgram) F(glDeleteQueries) F(glDeleteShader) F(glDeleteTextures) \
   F(glDeleteVertexArrays) F(glDepthFunc) F(glDepthMask) F(glDisable) F(glDispatchCompute) F(glDrawArrays) F(glEnable) F(glEnableVertexArrayAttrib) \

@@ -12,9 +12,23 @@ constexpr std::uint64_t kCounterBytes = 4096;   // what methods may take in buff
 Renderer::Renderer(const Scene& scene, const PlaneClasses& planes, DepthSource depthSource)
     : scene_(scene), planes_(planes), buffers_(scene, planes), frame_(buffers_, programs_, depthSource) {}
 
-void Renderer::setView(const View& view) { frame_.setView(view, depthPlanes(scene_, planes_, view)); }
+void Renderer::setView(const View& view) {
+  context_.makeCurrent();
+  frame_.setView(view, depthPlanes(scene_, planes_, view));
+}
+
+void Renderer::setFold(const FoldSource& fold) {
+  context_.makeCurrent();
+  frame_.setFold(fold);
+}
+
+std::vector<std::uint32_t> Renderer::result() const {
+  context_.makeCurrent();
+  return frame_.result();
+}
 
 FrameCounts Renderer::draw(DrawMethod method, const MethodOptions& options, const std::function<void(Frame&)>& before) {
+  context_.makeCurrent();
   frame_.begin();
   if (before) before(frame_);
   FrameCounts counts;

@@ -26,13 +26,17 @@ class Renderer {
   // Throws Error{Machine}: no GL, no memory.
   Renderer(const Scene& scene, const PlaneClasses& planes, DepthSource depthSource = DepthSource::Planes);
 
+  ~Renderer() { context_.makeCurrent(); }   // its members are the context's
+  Renderer(const Renderer&) = delete;
+
+  // Each call makes the context current: renderers may take turns on a thread. Whoever keeps buffers beside one calls this before they go.
   const Context& context() const { return context_; }
   const PlaneClasses& planes() const { return planes_; }
   void setView(const View& view);                  // `view` may go afterwards
-  void setFold(const FoldSource& fold) { frame_.setFold(fold); }   // after setView; its tables must live on
+  void setFold(const FoldSource& fold);            // after setView; its tables must live on
   // Draws and waits until the device is done. `before`: passes that the fold needs before the method's.
   FrameCounts draw(DrawMethod method, const MethodOptions& options, const std::function<void(Frame&)>& before = {});
-  std::vector<std::uint32_t> result() const { return frame_.result(); }   // of the fold
+  std::vector<std::uint32_t> result() const;       // of the fold
   Frame& frame() { return frame_; }
   const Programs& programs() const { return programs_; }
 

@@ -42,10 +42,13 @@ class Machine : public ProgramTest {
   }
 };
 
-TEST_F(Machine, WithoutLibEgl) {
-  const Environment order("ASAN_OPTIONS", "verify_asan_link_order=0");   // AddressSanitizer would have to be loaded first
-  const Environment preload("LD_PRELOAD", COPEEL_NO_EGL);
-  expectNoGl();
+TEST_F(Machine, WithoutTheLibrariesOfGl) {
+  for (const char* library : {"libEGL", "libepoxy"}) {
+    const Environment order("ASAN_OPTIONS", "verify_asan_link_order=0");   // AddressSanitizer would have to be loaded first
+    const Environment preload("LD_PRELOAD", COPEEL_HIDE_LIBRARY), hidden("HIDDEN_LIBRARY", library);
+    expectNoGl();
+    EXPECT_NE(draw({"--backend", "gl"}).standardError.find(library), std::string::npos);
+  }
 }
 
 TEST_F(Machine, WithoutADriver) {

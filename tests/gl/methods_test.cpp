@@ -95,5 +95,22 @@ TEST(GlMethods, nothingStaysOfTheViewBefore) {
   }
 }
 
+// Regression: each has a context of its own, and only the last that was made was current.
+TEST(GlMethods, renderersMayTakeTurns) {
+  const Scene spheres = spheresAndBoxes();
+  const PlaneClasses planes(spheres, 0);
+  const auto stacksIn = [&](gl::Renderer& renderer) { return glStacksOf(renderer, fromAside(), findMethod("ll")->draw, {}, 64).stacks; };
+  gl::Renderer first(spheres, planes);
+  const Stacks expected = stacksIn(first);
+  gl::Renderer second(spheres, planes);
+  for (int turn = 0; turn < 2; ++turn) {
+    gl::Renderer third(spheres, planes);
+    EXPECT_EQ(differing(expected, stacksIn(second)), 0u);
+    EXPECT_EQ(differing(expected, stacksIn(first)), 0u);
+    EXPECT_EQ(differing(expected, stacksIn(third)), 0u);
+  }
+  EXPECT_EQ(differing(expected, stacksIn(first)), 0u);
+}
+
 }  // namespace
 }  // namespace copeel::test
