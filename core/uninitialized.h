@@ -16,7 +16,7 @@ class UninitializedVector {
  public:
   UninitializedVector() = default;
   explicit UninitializedVector(std::size_t size) : elements_(std::make_unique_for_overwrite<T[]>(size)), size_(size) {}
-  UninitializedVector(std::size_t size, const T& value) : UninitializedVector(size) { std::fill_n(data(), size, value); }
+  explicit UninitializedVector(std::size_t size, const T& value) : UninitializedVector(size) { std::fill_n(data(), size, value); }
   UninitializedVector(const UninitializedVector& other) : UninitializedVector(other.size_) { std::copy_n(other.data(), size_, data()); }
   UninitializedVector(UninitializedVector&& other) noexcept { swap(other); }
   UninitializedVector& operator=(UninitializedVector other) noexcept {

@@ -97,7 +97,7 @@ TEST(Pfm, keepsInfinityAndRunsFromTheBottom) {
 TEST(Pgm, isSixteenBitBigEndianFromTheTop) {
   const TemporaryFolder folder;
   Image<std::uint16_t> image(2, 1);
-  image.pixels = {0x0102, 0xfffe};
+  image.at(0, 0) = 0x0102, image.at(1, 0) = 0xfffe;
   writePgm(folder.file("a.pgm"), image);
   EXPECT_EQ(contentOf(folder.file("a.pgm")), std::string("P5\n2 1\n65535\n\x01\x02\xff\xfe"));
 }
