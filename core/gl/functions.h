@@ -11,7 +11,7 @@
   F(eglBindAPI) F(eglCreateContext) F(eglDestroyContext) F(eglGetCurrentContext) F(eglGetPlatformDisplayEXT) F(eglInitialize) F(eglMakeCurrent) F(eglQueryDeviceStringEXT) \
   F(eglQueryDevicesEXT) F(eglTerminate) \
   F(glAttachShader) F(glBeginConditionalRender) F(glBeginQuery) F(glBindBuffer) F(glBindBufferBase) F(glBindFramebuffer) F(glBindTextureUnit) \
-  F(glBindVertexArray) F(glCheckNamedFramebufferStatus) F(glClearNamedBufferSubData) F(glClearNamedFramebufferfv) F(glClearNamedFramebufferuiv) \
+  F(glBindVertexArray) F(glCheckNamedFramebufferStatus) F(glClearNamedBufferData) F(glClearNamedFramebufferfv) F(glClearNamedFramebufferuiv) \
   F(glCompileShader) F(glCreateBuffers) F(glCreateFramebuffers) F(glCreateProgram) F(glCreateQueries) F(glCreateShader) F(glCreateTextures) \
   F(glCreateVertexArrays) F(glDeleteBuffers) F(glDeleteFramebuffers) F(glDeleteProgram) F(glDeleteQueries) F(glDeleteShader) F(glDeleteTextures) \
   F(glDeleteVertexArrays) F(glDepthFunc) F(glDepthMask) F(glDisable) F(glDispatchCompute) F(glDrawArrays) F(glEnable) F(glEnableVertexArrayAttrib) \

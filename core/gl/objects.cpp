@@ -21,12 +21,7 @@ Buffer::Buffer(std::size_t bytes, const void* data) : bytes_(std::max<std::size_
   checkErrors("making a buffer");
 }
 
-// llvmpipe writes value after value: of four words it writes a quarter as many.
-void Buffer::clear(GLuint word) const {
-  const GLuint words[] = {word, word, word, word};
-  const auto bytes = static_cast<GLsizeiptr>(bytes_), whole = bytes / GLsizeiptr{sizeof words} * GLsizeiptr{sizeof words};
-  glClearNamedBufferSubData(name_, GL_RGBA32UI, 0, whole, GL_RGBA_INTEGER, GL_UNSIGNED_INT, words);
-  if (whole < bytes) glClearNamedBufferSubData(name_, GL_R32UI, whole, bytes - whole, GL_RED_INTEGER, GL_UNSIGNED_INT, words);
-}
+// llvmpipe has a fast way for single words: four at once take three times as long.
+void Buffer::clear(GLuint word) const { glClearNamedBufferData(name_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &word); }
 
 }  // namespace copeel::gl
