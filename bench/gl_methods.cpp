@@ -153,8 +153,8 @@ class Subject {
   Scene scene_;
   PlaneClasses planes_;
   fold::OverTables tables_;
-  oit::OverBuffers buffers_;
   gl::Renderer renderer_;
+  oit::OverBuffers buffers_;
   View view_;
 };
 

@@ -49,7 +49,7 @@ GlPass::GlPass(const Scene& scene, const PlaneClasses& planes, const GateForest&
                const MethodOptions& options)
     : state_(std::make_unique<State>(scene, planes, forest, backgroundCount, rule, options)) {}
 
-GlPass::~GlPass() { state_->renderer.context().makeCurrent(); }   // its buffers are the context's
+GlPass::~GlPass() { state_->renderer.context().tryMakeCurrent(); }   // its buffers are the context's
 
 std::vector<std::uint32_t> GlPass::State::modelWords(const EyeWinding& eye, CsgFold::Alpha alpha, const void* context) const {
   const auto leafCount = static_cast<std::uint32_t>(scene.objects().size());

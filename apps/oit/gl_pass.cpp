@@ -45,7 +45,7 @@ struct GlPass::State {
 GlPass::GlPass(const Scene& scene, const PlaneClasses& planes, const std::vector<std::uint8_t>& opaque, const MethodOptions& options)
     : state_(std::make_unique<State>(scene, planes, opaque, options)) {}
 
-GlPass::~GlPass() { state_->renderer.context().makeCurrent(); }   // its buffers are the context's
+GlPass::~GlPass() { state_->renderer.context().tryMakeCurrent(); }   // its buffers are the context's
 
 void GlPass::draw(const View& view, const fold::OverTables& tables, const glm::vec3& background, bool mayEnd, const MethodInfo& method,
                   const Targets& targets, Stats& stats) {

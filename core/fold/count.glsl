@@ -93,7 +93,12 @@ void countWrite(uint fragments, uint groups, uint largest) {
 #endif
 }
 
-void foldNothing() { countWrite(0u, 0u, 0u); }
+void foldNothing() {
+#ifdef FOLD_COUNT_UNCERTAIN
+  countUncertain = 0u;
+#endif
+  countWrite(0u, 0u, 0u);
+}
 
 void foldFinishFront() { countWrite(countFragments, countGroups, countLargest); }
 

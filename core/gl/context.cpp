@@ -1,8 +1,8 @@
 #include "core/gl/context.h"
 
 #include <array>
-#include <atomic>
 #include <cstring>
+#include <mutex>
 #include <vector>
 
 #include <dlfcn.h>
@@ -14,7 +14,8 @@
 namespace copeel::gl {
 namespace {
 
-std::atomic<int> contexts = 0;   // to terminate a display ends all that are on it
+std::mutex contextsMutex;
+int contexts = 0;   // to terminate a display ends all that are on it
 
 // Devices first: a GPU's own driver answers there. Mesa's surfaceless platform is what is left without one.
 std::vector<EGLDisplay> displays() {
@@ -67,9 +68,10 @@ bool isSoftwareRenderer(const std::string& name) {
 }
 
 Context::Context() {
+  const std::scoped_lock lock(contextsMutex);
+  liftDataLimit();
   if (!hasEglLibrary()) failMachine("gl: no libEGL.so.1 (Debian package libegl1)");
   loadFunctions();
-  liftDataLimit();
   // A device whose driver is too old leaves the picture to the next one.
   bool any = false;
   for (const EGLDisplay display : displays()) {
@@ -82,20 +84,24 @@ Context::Context() {
   }
   if (!any) failMachine("gl: no EGL display without a window (Debian package libegl-mesa0)");
   if (!context_) failMachine("gl: no OpenGL 4.5 core context here");
-  ++contexts;
   renderer_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   software_ = isSoftwareRenderer(renderer_);
+  ++contexts;
 }
 
 Context::~Context() {
+  const std::scoped_lock lock(contextsMutex);
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
   if (--contexts == 0) eglTerminate(display_);
 }
 
+bool Context::tryMakeCurrent() const noexcept {
+  return eglGetCurrentContext() == context_ || eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+}
+
 void Context::makeCurrent() const {
-  if (eglGetCurrentContext() == context_) return;
-  if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) failMachine("gl: a context is in use by another thread");
+  if (!tryMakeCurrent()) failMachine("gl: a context is in use by another thread");
 }
 
 void checkErrors(const char* doing) {

@@ -11,7 +11,8 @@ class Context {
   ~Context();
   Context(const Context&) = delete;
 
-  void makeCurrent() const;   // on the calling thread, as a new one is
+  void makeCurrent() const;               // on the calling thread, as a new one is; throws Error{Machine} where another thread has it
+  bool tryMakeCurrent() const noexcept;   // false: another thread has it
   const std::string& renderer() const { return renderer_; }   // the driver's name of itself
   bool isSoftware() const { return software_; }               // llvmpipe or the like
 

@@ -53,6 +53,8 @@ std::vector<ObjectBox> objectBoxes(const Scene& scene, const PlaneClasses& plane
                                    bool hardwareDepth) {
   const DepthScale scale = depthScale(depths, view.perspective);
   const double nearest = nearDistance(scene, view);
+  // A turned mesh's box may stick out of the scene's, where pixels have nothing that could be asked.
+  const PixelRect sceneBox = windowBox(scene.bounds(), glm::dmat4(1.0), view, nearest);
   std::map<const Mesh*, Box> meshBoxes;
   std::vector<std::uint32_t> seenBy(depths.size(), ~std::uint32_t{0});   // the last object with the class
   std::vector<ObjectBox> boxes;
@@ -60,10 +62,10 @@ std::vector<ObjectBox> objectBoxes(const Scene& scene, const PlaneClasses& plane
     const Object& placed = scene.objects()[object];
     const auto [meshBox, isNew] = meshBoxes.try_emplace(placed.mesh.get());
     if (isNew) meshBox->second = boundingBox(*placed.mesh);
-    ObjectBox box{windowBox(meshBox->second, placed.worldFromObject, view, nearest)};
+    ObjectBox box{intersection(windowBox(meshBox->second, placed.worldFromObject, view, nearest), sceneBox)};
     box.leastKey = hardwareDepth ? COPEEL_KEY_LEAST : COPEEL_KEY_NONE;
     box.greatestKey = hardwareDepth ? COPEEL_KEY_NONE : 0;
-    const std::size_t facets = hardwareDepth || box.pixels.width == 0 ? 0 : placed.mesh->facetCount();
+    const std::size_t facets = hardwareDepth || box.pixels.empty() ? 0 : placed.mesh->facetCount();
     for (std::uint32_t facet = 0; facet < facets; ++facet) {
       const std::uint32_t planeClass = planes.classOf(object, facet);
       if (seenBy[planeClass] == object) continue;

@@ -19,11 +19,14 @@ void load(void* library, const char* name, F& function) {
 }  // namespace
 
 void loadFunctions() {
-  static void* const library = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
-  if (!library) failMachine("gl: no {} (Debian package libepoxy0)", kLibrary);
-#define COPEEL_GL_LOAD(name) load(library, "epoxy_" #name, epoxy_##name);
+  static void* library = nullptr;
+  if (library) return;
+  void* const opened = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
+  if (!opened) failMachine("gl: no {} (Debian package libepoxy0): {}", kLibrary, dlerror());
+#define COPEEL_GL_LOAD(name) load(opened, "epoxy_" #name, epoxy_##name);
   COPEEL_GL_FUNCTIONS(COPEEL_GL_LOAD)
 #undef COPEEL_GL_LOAD
+  library = opened;
 }
 
 }  // namespace copeel::gl

@@ -54,6 +54,6 @@ class Function<R (*)(P...)> {
 COPEEL_GL_FUNCTIONS(COPEEL_GL_FUNCTION)
 #undef COPEEL_GL_FUNCTION
 
-void loadFunctions();   // throws Error{Machine}: no libepoxy
+void loadFunctions();   // once, by one thread at a time; throws Error{Machine}: no libepoxy
 
 }  // namespace copeel::gl

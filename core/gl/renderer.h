@@ -26,7 +26,7 @@ class Renderer {
   // Throws Error{Machine}: no GL, no memory.
   Renderer(const Scene& scene, const PlaneClasses& planes, DepthSource depthSource = DepthSource::Planes);
 
-  ~Renderer() { context_.makeCurrent(); }   // its members are the context's
+  ~Renderer() { context_.tryMakeCurrent(); }   // its members are the context's
   Renderer(const Renderer&) = delete;
 
   // Each call makes the context current: renderers may take turns on a thread. Whoever keeps buffers beside one calls this before they go.

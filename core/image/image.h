@@ -22,6 +22,11 @@ inline bool contains(const PixelRect& outer, const PixelRect& inner) {
   return inner.empty() || (across && inner.y >= outer.y && inner.y + inner.height <= outer.y + outer.height);
 }
 
+inline PixelRect intersection(const PixelRect& a, const PixelRect& b) {
+  const int x = std::max(a.x, b.x), y = std::max(a.y, b.y);
+  return {x, y, std::max(0, std::min(a.x + a.width, b.x + b.width) - x), std::max(0, std::min(a.y + a.height, b.y + b.height) - y)};
+}
+
 template <class Visit>
 void forEachOf(const PixelRect& rect, Visit visit) {
   for (int y = rect.y; y < rect.y + rect.height; ++y) {

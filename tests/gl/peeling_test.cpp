@@ -318,9 +318,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Peeling, testing::Range<std::size_t>(0, coplana
 });
 
 // Three objects of two layers each, one behind another; none lies in a plane of another's, which would let its depths run to the other's.
-std::vector<std::uint32_t> drawnOfThree(const Mesh& mesh, std::string_view method) {
+std::vector<std::uint32_t> drawnOfThree(const Mesh& mesh, std::string_view method, const glm::dmat4& turn = glm::dmat4(1.0)) {
   const MeshPointer shared = share(mesh);
-  const Scene scene({{shared, translation({0, 0, 4})}, {shared, scaling({0.9, 0.9, 1})}, {shared, translation({0, 0, -4}) * scaling({0.8, 0.8, 1})}});
+  const Scene scene({{shared, translation({0, 0, 4}) * turn}, {shared, scaling({0.9, 0.9, 1})}, {shared, translation({0, 0, -4}) * scaling({0.8, 0.8, 1})}});
   const NamedScene row{"row", scene, lookAt({0, 0, 10}, {0, 0, 0}, 32, 24, 0.1, false)};
   return Peeled(row).draw(method, {.cull = true}).counts.objectsDrawn;
 }
@@ -331,6 +331,8 @@ TEST(PeelingCulls, finishedObjects) {
   using Drawn = std::vector<std::uint32_t>;
   EXPECT_EQ(drawnOfThree(cube, "f2b"), (Drawn{3, 3, 2, 2, 1, 1, 0}));
   EXPECT_EQ(drawnOfThree(ball, "f2b"), (Drawn{3, 3, 3, 2, 2, 1, 1}));
+  // The box of a turned mesh sticks out of the scene's.
+  EXPECT_EQ(drawnOfThree(ball, "f2b", rotation({0, 0, 45})), (Drawn{3, 3, 3, 2, 2, 1, 1}));
   EXPECT_EQ(drawnOfThree(cube, "hybrid"), (Drawn{3, 3, 2, 2, 1, 1, 0}));
   // Two passes an iteration, then the one that finds nothing.
   EXPECT_EQ(drawnOfThree(cube, "f2b-2p"), (Drawn{3, 3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 0}));
