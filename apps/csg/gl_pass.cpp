@@ -105,14 +105,9 @@ gl::FrameCounts GlPass::State::drawFrame(const EyeWinding& eye, const MethodInfo
 }
 
 bool GlPass::State::deliver(const View& view, PixelSink& sink) const {
-  const std::vector<std::uint32_t> results = renderer.result();
-  const std::size_t words = 1 + kSurfaceWords * surfaceLimit;
-  for (std::size_t pixel = 0; pixel * words < results.size(); ++pixel) {
-    if (results[pixel * words] > surfaceLimit) return false;
-  }
+  const std::size_t pixelWords = 1 + kSurfaceWords * surfaceLimit, rowWords = pixelWords * static_cast<std::size_t>(view.width);
   std::vector<Surface> surfaces;
-  for (std::size_t pixel = 0; pixel * words < results.size(); ++pixel) {
-    const std::uint32_t* record = results.data() + pixel * words;
+  const auto put = [&](const std::uint32_t* record, int x, int y) {
     surfaces.clear();
     for (std::uint32_t i = 0; i < record[0]; ++i) {
       const std::uint32_t* surface = record + 1 + kSurfaceWords * i;
@@ -120,11 +115,16 @@ bool GlPass::State::deliver(const View& view, PixelSink& sink) const {
       const std::uint32_t facet = scene.objects()[object].mesh->facetOf(primitive - scene.firstPrimitive(object));
       surfaces.push_back({primitive, renderer.planes().classOf(object, facet), surface[2], surface[1]});
     }
-    if (surfaces.empty()) continue;
-    const int x = static_cast<int>(pixel % static_cast<std::size_t>(view.width)), y = static_cast<int>(pixel / static_cast<std::size_t>(view.width));
     sink.pixels({x, y, 1, 1}, surfaces, sink.color(surfaces));
-  }
-  return true;
+  };
+  bool all = true;
+  renderer.visitResult([&](int firstRow, std::span<const std::uint32_t> words) {
+    for (std::size_t at = 0; at < words.size() && all; at += pixelWords) all = words[at] <= surfaceLimit;
+    for (std::size_t at = 0; at < words.size() && all; at += pixelWords) {
+      if (words[at] != 0) put(words.data() + at, static_cast<int>(at % rowWords / pixelWords), firstRow + static_cast<int>(at / rowWords));
+    }
+  });
+  return all;
 }
 
 void GlPass::draw(const View& view, const EyeWinding& eye, CsgFold::Alpha alpha, const void* context, const MethodInfo& method,

@@ -69,20 +69,27 @@ void GlPass::draw(const View& view, const fold::OverTables& tables, const glm::v
     stats.methodReason = counts.method.reason;
   }
 
-  const std::vector<std::uint32_t> words = state.renderer.result();
+  deliver(view, background, targets);
+}
+
+void GlPass::deliver(const View& view, const glm::vec3& background, const Targets& targets) const {
+  const State& state = *state_;
   const DepthPlanes depths = targets.depth ? depthPlanes(state.scene, state.planes, view) : DepthPlanes();
+  const auto put = [&](const std::uint32_t* pixel, int x, int y) {
+    targets.put({x, y, 1, 1}, resultOf(pixel, background));
+    if (pixel[8] == 0 || !(targets.depth || targets.ids)) return;
+    const std::uint32_t object = state.scene.objectOf(pixel[8] - 1);
+    const std::uint32_t facet = state.scene.objects()[object].mesh->facetOf(pixel[8] - 1 - state.scene.firstPrimitive(object));
+    targets.putNearest(x, y, object, targets.depth ? distanceAt(depths[state.planes.classOf(object, facet)], view, x, y) : 0);
+  };
   const auto width = static_cast<std::size_t>(view.width);
-  parallelFor(words.size() / kOverResultWords, 1 << 12, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i != end; ++i) {
-      const std::uint32_t* pixel = words.data() + i * kOverResultWords;
-      if (pixel[9] == 0) continue;
-      const int x = static_cast<int>(i % width), y = static_cast<int>(i / width);
-      targets.put({x, y, 1, 1}, resultOf(pixel, background));
-      if (pixel[8] == 0 || !(targets.depth || targets.ids)) continue;
-      const std::uint32_t object = state.scene.objectOf(pixel[8] - 1);
-      const std::uint32_t facet = state.scene.objects()[object].mesh->facetOf(pixel[8] - 1 - state.scene.firstPrimitive(object));
-      targets.putNearest(x, y, object, targets.depth ? distanceAt(depths[state.planes.classOf(object, facet)], view, x, y) : 0);
-    }
+  state.renderer.visitResult([&](int firstRow, std::span<const std::uint32_t> words) {
+    parallelFor(words.size() / kOverResultWords, 1 << 12, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i != end; ++i) {
+        const std::uint32_t* const pixel = words.data() + i * kOverResultWords;
+        if (pixel[9] != 0) put(pixel, static_cast<int>(i % width), firstRow + static_cast<int>(i / width));
+      }
+    });
   });
 }
 

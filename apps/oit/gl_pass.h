@@ -24,6 +24,8 @@ class GlPass {
   void measure(const MethodInfo& method, Stats& stats);
 
  private:
+  void deliver(const View& view, const glm::vec3& background, const Targets& targets) const;
+
   struct State;
   std::unique_ptr<State> state_;
 };

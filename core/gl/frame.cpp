@@ -203,7 +203,8 @@ const Program& Frame::pixelProgram(const std::string& file, const std::string& p
   Defines all = fold_.defines;
   all.insert(all.end(), defines.begin(), defines.end());
   all.emplace_back("PASS_" + pass, "1");
-  return programs_.find("core/gl/pixels.vert.glsl", file, all);
+  all.emplace_back("PIXEL_PASS", file);
+  return programs_.find("core/gl/pixels.vert.glsl", "core/gl/pixels.glsl", all);
 }
 
 const Buffer& Frame::buffer(const std::string& name, int slot, std::size_t bytes) {
@@ -416,6 +417,14 @@ bool Frame::anySamplesOf(const std::function<void()>& passes) {
 
 std::vector<std::uint32_t> Frame::result() const {
   return results_.read<std::uint32_t>(pixelCount() * fold_.resultWords);
+}
+
+void Frame::visitResult(const std::function<void(int, std::span<const std::uint32_t>)>& visitor) const {
+  const std::size_t rowWords = static_cast<std::size_t>(width_) * fold_.resultWords;
+  const std::size_t first = static_cast<std::size_t>(sceneBox_.y) * rowWords, count = static_cast<std::size_t>(sceneBox_.height) * rowWords;
+  results_.visit(first * sizeof(std::uint32_t), count * sizeof(std::uint32_t), [&](const void* bytes) {
+    visitor(sceneBox_.y, {static_cast<const std::uint32_t*>(bytes), count});
+  });
 }
 
 }  // namespace copeel::gl

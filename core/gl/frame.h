@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include <glm/vec4.hpp>
@@ -117,6 +118,8 @@ class Frame {
 
   // Results, after a method has drawn.
   std::vector<std::uint32_t> result() const;          // resultWords per pixel, row by row from the upper left
+  // The same of the rows that the scene may cover, without a copy; all words of the others are zero.
+  void visitResult(const std::function<void(int firstRow, std::span<const std::uint32_t> words)>& visitor) const;
   std::uint64_t passes() const { return objectsDrawn_.size(); }
   const std::vector<std::uint32_t>& objectsDrawn() const { return objectsDrawn_; }   // in each pass
   // From each pass to the next, the last to finish(): what a pass took where something waits for its end, as peeling's queries do.

@@ -12,14 +12,14 @@
   F(eglQueryDevicesEXT) F(eglTerminate) \
   F(glAttachShader) F(glBeginConditionalRender) F(glBeginQuery) F(glBindBuffer) F(glBindBufferBase) F(glBindFramebuffer) F(glBindTextureUnit) \
   F(glBindVertexArray) F(glCheckNamedFramebufferStatus) F(glClearNamedBufferData) F(glClearNamedFramebufferfv) F(glClearNamedFramebufferuiv) \
-  F(glCompileShader) F(glCreateBuffers) F(glCreateFramebuffers) F(glCreateProgram) F(glCreateQueries) F(glCreateShader) F(glCreateTextures) \
+  F(glCompileShader) F(glCopyNamedBufferSubData) F(glCreateBuffers) F(glCreateFramebuffers) F(glCreateProgram) F(glCreateQueries) F(glCreateShader) F(glCreateTextures) \
   F(glCreateVertexArrays) F(glDeleteBuffers) F(glDeleteFramebuffers) F(glDeleteProgram) F(glDeleteQueries) F(glDeleteShader) F(glDeleteTextures) \
   F(glDeleteVertexArrays) F(glDepthFunc) F(glDepthMask) F(glDisable) F(glDispatchCompute) F(glDrawArrays) F(glEnable) F(glEnableVertexArrayAttrib) \
-  F(glEndConditionalRender) F(glEndQuery) F(glFinish) F(glFrontFace) F(glGetError) F(glGetInteger64v) F(glGetNamedBufferSubData) \
+  F(glEndConditionalRender) F(glEndQuery) F(glFinish) F(glFrontFace) F(glGetError) F(glGetInteger64v) \
   F(glGetProgramInfoLog) F(glGetProgramiv) F(glGetQueryObjectuiv) F(glGetShaderInfoLog) F(glGetShaderiv) F(glGetString) F(glGetUniformLocation) \
-  F(glLinkProgram) F(glMemoryBarrier) F(glMultiDrawElementsIndirect) F(glNamedBufferStorage) F(glNamedBufferSubData) F(glNamedFramebufferDrawBuffer) \
+  F(glLinkProgram) F(glMapNamedBufferRange) F(glMemoryBarrier) F(glMultiDrawElementsIndirect) F(glNamedBufferStorage) F(glNamedBufferSubData) F(glNamedFramebufferDrawBuffer) \
   F(glNamedFramebufferDrawBuffers) F(glNamedFramebufferParameteri) F(glNamedFramebufferTexture) F(glProgramUniform1i) F(glProgramUniform1ui) \
-  F(glScissor) F(glShaderSource) F(glTextureBuffer) F(glTextureParameteri) F(glTextureStorage2D) F(glUseProgram) F(glVertexArrayAttribBinding) \
+  F(glScissor) F(glShaderSource) F(glTextureBuffer) F(glTextureParameteri) F(glTextureStorage2D) F(glUnmapNamedBuffer) F(glUseProgram) F(glVertexArrayAttribBinding) \
   F(glVertexArrayAttribFormat) F(glVertexArrayAttribIFormat) F(glVertexArrayBindingDivisor) F(glVertexArrayElementBuffer) \
   F(glVertexArrayVertexBuffer) F(glViewport)
 

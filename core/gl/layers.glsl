@@ -59,10 +59,15 @@ void layerSeek() {}
 
 #endif
 
-// Which side's layer a key is on; false: none's.
+// Which side's layer a key is on; false: none's. No loop: NVIDIA's compiler (580.159) leaves `side` wrong where a loop returns.
 bool layerOf(uint key, out uint side) {
-  for (side = 0u; side < LAYER_SIDES; ++side) {
-    if (key == layerKey(side)) return true;
+  side = COPEEL_FRONT;
+  bool found = key == layerKey(COPEEL_FRONT);
+#ifdef DUAL
+  if (!found) {
+    side = COPEEL_BACK;
+    found = key == layerKey(COPEEL_BACK);
   }
-  return false;
+#endif
+  return found;
 }

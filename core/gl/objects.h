@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstring>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -53,13 +55,17 @@ class Buffer {
   template <class T>
   std::vector<T> read(std::size_t count) const {
     std::vector<T> data(count);
-    if (count > 0) glGetNamedBufferSubData(name_, 0, static_cast<GLsizeiptr>(count * sizeof(T)), data.data());
+    visit(0, count * sizeof(T), [&](const void* bytes) { std::memcpy(data.data(), bytes, count * sizeof(T)); });
     return data;
   }
+  // The bytes [offset, offset + count), where the host reads them as long as the call lasts.
+  void visit(std::size_t offset, std::size_t count, const std::function<void(const void*)>& visitor) const;
 
  private:
   Handle<deleteBuffer> name_;
   std::size_t bytes_ = 0;
+  mutable Handle<deleteBuffer> readBack_;        // what a GPU is to show the host is copied there; of so many bytes
+  mutable std::size_t readBackBytes_ = 0;
   DeviceMemory share_;
 };
 

@@ -27,6 +27,11 @@ std::vector<std::uint32_t> Renderer::result() const {
   return frame_.result();
 }
 
+void Renderer::visitResult(const std::function<void(int, std::span<const std::uint32_t>)>& visitor) const {
+  context_.makeCurrent();
+  frame_.visitResult(visitor);
+}
+
 FrameCounts Renderer::draw(DrawMethod method, const MethodOptions& options, const std::function<void(Frame&)>& before) {
   context_.makeCurrent();
   frame_.begin();

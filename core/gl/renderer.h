@@ -37,6 +37,7 @@ class Renderer {
   // Draws and waits until the device is done. `before`: passes that the fold needs before the method's.
   FrameCounts draw(DrawMethod method, const MethodOptions& options, const std::function<void(Frame&)>& before = {});
   std::vector<std::uint32_t> result() const;       // of the fold
+  void visitResult(const std::function<void(int firstRow, std::span<const std::uint32_t> words)>& visitor) const;   // Frame::visitResult
   Frame& frame() { return frame_; }
   const Programs& programs() const { return programs_; }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/gl/embedded_shaders.h"
 #include "tests/support/gl_stacks.h"
 #include "tests/support/meshes.h"
 #include "tests/support/views.h"
@@ -59,6 +60,72 @@ TEST(GlShaders, areStandard) {
     if (compute || !compiled.insert(made.vertexPath).second) continue;
     EXPECT_EQ(complaint(made.vertexPath, made.defines, "vert"), "") << made.vertexPath;
   }
+}
+
+// One past what closes the bracket that opens at `at`.
+std::size_t closing(std::string_view text, std::size_t at) {
+  const char opens = text[at], closes = opens == '(' ? ')' : '}';
+  for (int depth = 0; at < text.size(); ++at) {
+    depth += text[at] == opens ? 1 : text[at] == closes ? -1 : 0;
+    if (depth == 0) return at + 1;
+  }
+  return text.size();
+}
+
+// The block or the statement that begins at `begin`.
+std::string_view statementAt(std::string_view text, std::size_t begin) {
+  const std::size_t first = std::min(text.find_first_of("{;", begin), text.size());
+  return text.substr(begin, (first < text.size() && text[first] == '{' ? closing(text, first) : first) - begin);
+}
+
+// The bodies of functions with parameters that go out.
+std::vector<std::string_view> bodiesWithOutParameters(std::string_view text) {
+  std::vector<std::string_view> bodies;
+  for (const char* word : {"(out ", ", out ", "(inout ", ", inout ", "INOUT("}) {
+    for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
+      const std::size_t body = text.find_first_of("{;#", at);
+      if (body != text.npos && text[body] == '{') bodies.push_back(statementAt(text, body));
+    }
+  }
+  return bodies;
+}
+
+// NVIDIA's compiler (580.159) leaves such a parameter as the loop's last turn would: peeling by layers delivered nothing there.
+TEST(GlShaders, noLoopReturnsFromAFunctionWithOutParameters) {
+  std::size_t bodies = 0;
+  for (const gl::EmbeddedShader& shader : gl::embeddedShaders()) {
+    for (const std::string_view body : bodiesWithOutParameters(shader.text)) {
+      ++bodies;
+      for (const char* loop : {"for (", "while ("}) {
+        for (std::size_t at = body.find(loop); at != body.npos; at = body.find(loop, at + 1)) {
+          const std::string_view turn = statementAt(body, closing(body, body.find('(', at)));
+          EXPECT_EQ(turn.find("return"), turn.npos) << shader.path << ": " << turn;
+        }
+      }
+    }
+  }
+  EXPECT_GE(bodies, 5u);
+}
+
+// Helper invocations wait for ever in a loop over lists that they cannot write: NVIDIA's GPUs hung.
+TEST(GlShaders, pixelPassesKeepHelperInvocationsOut) {
+  const Scene scene({{share(box({0, 0, 0}, {1, 1, 1}))}});
+  const PlaneClasses planes(scene, 0);
+  gl::Renderer renderer(scene, planes);
+  renderer.setView(lookAt({3, 2, 4}, {0, 0, 0}, 16, 16, 0.02));
+  renderer.setFold(folds()[0]);
+  for (const MethodInfo& method : methods()) {
+    if (method.draw) renderer.draw(method.draw, {.cull = true});
+  }
+  std::size_t pixelPasses = 0;
+  for (const gl::Programs::Made& made : renderer.programs().all()) {
+    if (made.vertexPath != "core/gl/pixels.vert.glsl") continue;
+    ++pixelPasses;
+    EXPECT_EQ(made.fragmentPath, "core/gl/pixels.glsl");
+    std::vector<std::string> files;
+    EXPECT_NE(gl::shaderSource(made.fragmentPath, made.defines, files).find("if (!gl_HelperInvocation) pixelMain();"), std::string::npos);
+  }
+  EXPECT_GT(pixelPasses, 20u);
 }
 
 TEST(GlShaders, faultsNameFileAndLine) {
