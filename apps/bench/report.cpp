@@ -8,12 +8,28 @@
 
 #include <fmt/format.h>
 
+#include "core/error.h"
+#if COPEEL_GL
+#include "core/gl/context.h"
+#endif
+
 namespace copeel::bench {
 
 std::string decibels(double psnr) { return std::isfinite(psnr) ? fmt::format("{:.1f}", psnr) : "∞"; }
 std::string lengthOf(double depth) { return std::isfinite(depth) ? fmt::format("{:.2g}", depth) : "∞"; }
 
-// "AMD EPYC 7B13, 2 cores".
+// "; gl: llvmpipe (LLVM 15.0.6, 256 bits)", or nothing where there is no GL.
+std::string glLine() {
+#if COPEEL_GL
+  try {
+    return "; gl: " + gl::Context().renderer();
+  } catch (const Error&) {
+  }
+#endif
+  return "";
+}
+
+// "AMD EPYC 7B13, 2 cores; gl: …".
 std::string machineLine() {
   std::ifstream info("/proc/cpuinfo");
   std::string line, name = "a processor that does not say its name";
@@ -23,7 +39,7 @@ std::string machineLine() {
     name = line.substr(colon + 2);
     break;
   }
-  return fmt::format("{}, {} cores", name, std::thread::hardware_concurrency());
+  return fmt::format("{}, {} cores{}", name, std::thread::hardware_concurrency(), glLine());
 }
 
 std::string toText(const std::vector<Entry>& entries) {
