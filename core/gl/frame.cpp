@@ -180,16 +180,17 @@ void Frame::writeFrameBlock(const DepthPlanes& depths) {
 void Frame::setFold(const FoldSource& fold) {
   if (fold.resultWords != fold_.resultWords) writtenBox_ = whole();
   fold_ = fold;
-  const std::uint64_t stateBytes = pixelCount() * fold.stateWords * 2 * sizeof(std::uint32_t);
   const std::uint64_t resultBytes = pixelCount() * fold.resultWords * sizeof(std::uint32_t);
-  if (stateBytes + resultBytes > kMostFoldBytes) {
-    failMachine("gl: {} MB for the state of {} pixels; use --backend cpu", (stateBytes + resultBytes) >> 20, pixelCount());
-  }
+  checkFoldBytes(resultBytes + (fold.inMemory ? stateBytes() : 0));
   if (results_.bytes() < resultBytes) writtenBox_ = whole();
   grow(results_, resultBytes);
   for (std::size_t i = 0; i < fold.tables.size(); ++i) {
     if (fold.tables[i].texels != GL_NONE) texels(*fold.tables[i].buffer, static_cast<int>(COPEEL_TEXTURE_FOLD_TABLE + i), fold.tables[i].texels);
   }
+}
+
+void Frame::checkFoldBytes(std::uint64_t bytes) const {
+  if (bytes > kMostFoldBytes) failMachine("gl: {} MB for the state of {} pixels; use --backend cpu", bytes >> 20, pixelCount());
 }
 
 const Program& Frame::geometryProgram(const std::string& file, const std::string& pass, const Defines& defines) {
@@ -317,8 +318,8 @@ void Frame::emptyOutside() {
 }
 
 void Frame::makeStates() {
-  const std::size_t bytes = pixelCount() * fold_.stateWords * 2 * sizeof(std::uint32_t);
-  grow(states_, bytes);
+  checkFoldBytes(stateBytes() + results_.bytes());
+  grow(states_, stateBytes());
   states_.bindStorage(COPEEL_BUFFER_FOLD_STATE);
 }
 

@@ -45,7 +45,7 @@ struct Look {
   bool wasTooLittle = false;        // a method met more: the next look is at all pixels
 };
 
-// States are per pixel: a model of a thousand leaves is one for the cpu back end.
+// Of states and results, which are per pixel: a model of a thousand leaves is one for the cpu back end.
 inline constexpr std::uint64_t kMostFoldBytes = std::uint64_t{2} << 30;
 
 class Frame {
@@ -55,7 +55,7 @@ class Frame {
 
   // Projects the scene. `depths` are those of the view.
   void setView(const View& view, const DepthPlanes& depths);
-  void setFold(const FoldSource& fold);   // throws Error{Machine} when its state and results outgrow kMostFoldBytes
+  void setFold(const FoldSource& fold);   // throws Error{Machine} when its results, and its states where it has them in memory alone, outgrow kMostFoldBytes
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -134,11 +134,13 @@ class Frame {
   bool usesStates() const { return usesStates_; }
   // What a method's resolve pass is given where it may spare them: RESOLVE then writes results itself.
   Defines wholeDefines() const { return usesStates_ ? Defines{} : Defines{{"FOLD_WHOLE", "1"}}; }
-  void makeStates();   // the memory alone
+  void makeStates();   // the memory alone; throws Error{Machine} when states and results outgrow kMostFoldBytes
   void finish();  // joins the fold's sides into its results where there are states, and waits for the device
 
  private:
   PixelRect whole() const { return {0, 0, width_, height_}; }
+  std::uint64_t stateBytes() const { return std::uint64_t{pixelCount()} * fold_.stateWords * 2 * sizeof(std::uint32_t); }
+  void checkFoldBytes(std::uint64_t bytes) const;
   void makeTargets();
   void emptyOutside();
   void project();
