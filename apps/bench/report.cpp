@@ -14,9 +14,7 @@
 #endif
 
 namespace copeel::bench {
-
-std::string decibels(double psnr) { return std::isfinite(psnr) ? fmt::format("{:.1f}", psnr) : "∞"; }
-std::string lengthOf(double depth) { return std::isfinite(depth) ? fmt::format("{:.2g}", depth) : "∞"; }
+namespace {
 
 // "; gl: llvmpipe (LLVM 15.0.6, 256 bits)", or nothing where there is no GL.
 std::string glLine() {
@@ -28,6 +26,11 @@ std::string glLine() {
 #endif
   return "";
 }
+
+}  // namespace
+
+std::string decibels(double psnr) { return std::isfinite(psnr) ? fmt::format("{:.1f}", psnr) : "∞"; }
+std::string lengthOf(double depth) { return std::isfinite(depth) ? fmt::format("{:.2g}", depth) : "∞"; }
 
 // "AMD EPYC 7B13, 2 cores; gl: …".
 std::string machineLine() {

@@ -180,17 +180,16 @@ void Frame::writeFrameBlock(const DepthPlanes& depths) {
 void Frame::setFold(const FoldSource& fold) {
   if (fold.resultWords != fold_.resultWords) writtenBox_ = whole();
   fold_ = fold;
-  const std::uint64_t resultBytes = pixelCount() * fold.resultWords * sizeof(std::uint32_t);
-  checkFoldBytes(resultBytes + (fold.inMemory ? stateBytes() : 0));
-  if (results_.bytes() < resultBytes) writtenBox_ = whole();
-  grow(results_, resultBytes);
+  checkFoldBytes(resultBytes() + (fold.inMemory ? stateBytes() : 0));
+  if (results_.bytes() < resultBytes()) writtenBox_ = whole();
+  grow(results_, resultBytes());
   for (std::size_t i = 0; i < fold.tables.size(); ++i) {
     if (fold.tables[i].texels != GL_NONE) texels(*fold.tables[i].buffer, static_cast<int>(COPEEL_TEXTURE_FOLD_TABLE + i), fold.tables[i].texels);
   }
 }
 
 void Frame::checkFoldBytes(std::uint64_t bytes) const {
-  if (bytes > kMostFoldBytes) failMachine("gl: {} MB for the state of {} pixels; use --backend cpu", bytes >> 20, pixelCount());
+  if (bytes > kMostFoldBytes) failMachine("gl: {} MB for the state and results of {} pixels; use --backend cpu", bytes >> 20, pixelCount());
 }
 
 const Program& Frame::geometryProgram(const std::string& file, const std::string& pass, const Defines& defines) {
@@ -318,7 +317,7 @@ void Frame::emptyOutside() {
 }
 
 void Frame::makeStates() {
-  checkFoldBytes(stateBytes() + results_.bytes());
+  checkFoldBytes(stateBytes() + resultBytes());
   grow(states_, stateBytes());
   states_.bindStorage(COPEEL_BUFFER_FOLD_STATE);
 }

@@ -118,7 +118,7 @@ class Frame {
 
   // Results, after a method has drawn.
   std::vector<std::uint32_t> result() const;          // resultWords per pixel, row by row from the upper left
-  // The same of the rows that the scene may cover, without a copy; all words of the others are zero.
+  // The same of the rows that the scene may cover, where the device has them, or a GPU's copy; all words of the others are zero.
   void visitResult(const std::function<void(int firstRow, std::span<const std::uint32_t> words)>& visitor) const;
   std::uint64_t passes() const { return objectsDrawn_.size(); }
   const std::vector<std::uint32_t>& objectsDrawn() const { return objectsDrawn_; }   // in each pass
@@ -134,11 +134,13 @@ class Frame {
   bool usesStates() const { return usesStates_; }
   // What a method's resolve pass is given where it may spare them: RESOLVE then writes results itself.
   Defines wholeDefines() const { return usesStates_ ? Defines{} : Defines{{"FOLD_WHOLE", "1"}}; }
-  void makeStates();   // the memory alone; throws Error{Machine} when states and results outgrow kMostFoldBytes
+  bool statesFit() const { return stateBytes() + resultBytes() <= kMostFoldBytes; }
+  void makeStates();   // the memory alone, which beginStates() makes too; throws Error{Machine} when states and results outgrow kMostFoldBytes
   void finish();  // joins the fold's sides into its results where there are states, and waits for the device
 
  private:
   PixelRect whole() const { return {0, 0, width_, height_}; }
+  std::uint64_t resultBytes() const { return std::uint64_t{pixelCount()} * fold_.resultWords * sizeof(std::uint32_t); }
   std::uint64_t stateBytes() const { return std::uint64_t{pixelCount()} * fold_.stateWords * 2 * sizeof(std::uint32_t); }
   void checkFoldBytes(std::uint64_t bytes) const;
   void makeTargets();

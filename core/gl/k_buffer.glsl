@@ -52,9 +52,13 @@ void settle(uint first, uint at, uvec2 moving) {
 #endif
 }
 
-// True when the buffer is full of nearer keys. Without a lock that may be out of date; as the farthest key only ever comes nearer, it then errs by
-// letting the fragment through. Ids are left out, as they could be another record's than the key.
-bool tooFar(uint first, uint count, uvec2 fragment) { return count == uint(K) && fragments[first].x < fragment.x; }
+// True when the buffer is full of nearer keys. Without a lock that may be out of date; as the farthest key only ever comes nearer once the buffer is full, it
+// then errs by letting the fragment through. Ids are left out, as they could be another record's than the key.
+bool tooFar(uint pixel, uvec2 fragment) {
+  if ((kept[pixel] & ~K_IN_USE) != uint(K)) return false;
+  memoryBarrierBuffer();   // who wrote that count wrote the farthest before
+  return fragments[pixel * uint(K)].x < fragment.x;
+}
 
 // Returns the new count.
 uint keepNearest(uint first, uint count, uvec2 fragment) {

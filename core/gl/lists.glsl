@@ -12,7 +12,11 @@ struct Node {
 layout(std430, binding = COPEEL_BUFFER_METHOD) coherent buffer Heads { uint heads[]; };     // index + 1 of a list's first node, 0: none
 layout(std430, binding = COPEEL_BUFFER_METHOD + 1) buffer Nodes { Node nodes[]; };
 layout(std430, binding = COPEEL_BUFFER_METHOD + 2) coherent buffer Wanted { uint wanted[]; };   // nodes of each memory, 16 words apart
-layout(std430, binding = COPEEL_BUFFER_METHOD + 3) coherent buffer Longest { uint longest; };   // list that was put off
+layout(std430, binding = COPEEL_BUFFER_METHOD + 3) coherent buffer Longest { uint longest; };   // pixel that was put off, its lists together
+
+#if LISTS > 5
+#error a pixel has at most five lists
+#endif
 
 uint headOf(uint list) { return pixelIndex() * uint(LISTS) + list; }
 
@@ -65,7 +69,9 @@ void main() {
     if (node == 0u) node = later.x, later = uvec4(later.yzw, 0u);
   }
   if (node != 0u) {
-    for (uint list = 0u; list < uint(LISTS); ++list) atomicMax(longest, lengthOf(list));
+    uint length = 0u;
+    for (uint list = 0u; list < uint(LISTS); ++list) length += lengthOf(list);
+    atomicMax(longest, length);
     heads[headOf(0u)] |= LIST_LONG;
     return;
   }

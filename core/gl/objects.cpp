@@ -48,9 +48,11 @@ void Buffer::visit(std::size_t offset, std::size_t count, const std::function<vo
   const auto size = static_cast<GLsizeiptr>(count);
   if (copies) {
     if (readBackBytes_ < count) {
+      readBackBytes_ = 0;
       readBack_ = newBuffer();
-      readBackBytes_ = count;
       glNamedBufferStorage(readBack_, size, nullptr, GL_CLIENT_STORAGE_BIT | GL_MAP_READ_BIT);
+      checkErrors("reading a buffer");
+      readBackBytes_ = count;
     }
     glCopyNamedBufferSubData(name_, readBack_, static_cast<GLintptr>(offset), 0, size);
   }

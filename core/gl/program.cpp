@@ -92,6 +92,14 @@ void compileInto(GLuint program, GLenum stage, const std::string& path, const De
   if (!good) failMachine("gl: {}", firstComplaint(log.substr(0, static_cast<std::size_t>(length)), files));
 }
 
+// What a program is called that does not link: a pixel pass by its own file.
+const std::string& calledAfter(const std::string& path, const Defines& defines) {
+  for (const auto& [name, value] : defines) {
+    if (name == "PIXEL_PASS") return value;
+  }
+  return path;
+}
+
 void link(GLuint program, const std::string& path) {
   glLinkProgram(program);
   GLint good = 0;
@@ -124,7 +132,7 @@ std::string shaderSource(const std::string& path, const Defines& defines, std::v
 Program::Program(const std::string& vertexPath, const std::string& fragmentPath, const Defines& defines) : name_(glCreateProgram()) {
   compileInto(name_, GL_VERTEX_SHADER, vertexPath, defines);
   compileInto(name_, GL_FRAGMENT_SHADER, fragmentPath, defines);
-  link(name_, fragmentPath);
+  link(name_, calledAfter(fragmentPath, defines));
 }
 
 Program::Program(const std::string& computePath, const Defines& defines) : name_(glCreateProgram()) {

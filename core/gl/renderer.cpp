@@ -29,7 +29,10 @@ std::vector<std::uint32_t> Renderer::result() const {
 
 void Renderer::visitResult(const std::function<void(int, std::span<const std::uint32_t>)>& visitor) const {
   context_.makeCurrent();
-  frame_.visitResult(visitor);
+  frame_.visitResult([&](int firstRow, std::span<const std::uint32_t> words) {
+    visitor(firstRow, words);
+    context_.makeCurrent();   // a visitor that waits for threads may have been lent to another renderer
+  });
 }
 
 FrameCounts Renderer::draw(DrawMethod method, const MethodOptions& options, const std::function<void(Frame&)>& before) {

@@ -4,7 +4,8 @@
 // A look is a pass that counts the fragments of the image at a fourth of its width and height (small images: of all pixels); later frames use its
 // numbers until they prove too small. First comes fab, as long as the arrays for the deepest pixel fit; then sb, which takes what the fragments
 // take; ll, which takes less where most pixels are empty; hybrid in constant memory. A method that finds its memory too short delivers nothing
-// and leaves the frame to the next one, so that a look that saw too little costs time and no fragment.
+// and leaves the frame to the next one, so that a look that saw too little costs time and no fragment. Of images too large for states (Frame::statesFit)
+// the first three alone are asked, with all memory there is.
 // Passes: those of the method, the look's and those of methods that were too short. Bytes: those of the method, at most --memory where that is 28 a
 // pixel or more. Loses: nothing.
 #include <algorithm>
@@ -21,7 +22,9 @@ namespace {
 
 constexpr std::size_t kSmallImage = 1 << 16;                       // pixels
 constexpr int kStep = 4;                                           // pixels of a larger one from one that is counted to the next
-constexpr std::uint64_t kUnlimited = std::uint64_t{512} << 20;     // bytes, without --memory
+constexpr std::uint64_t kUnlimited = std::uint64_t{512} << 20;     // bytes, without --memory, where hybrid can take over
+constexpr std::uint64_t kEndless = std::uint64_t{1} << 62;          // where it cannot
+constexpr std::uint32_t kShort = 128;                              // SORT_SHORT: arrays of more have states
 constexpr std::uint64_t kDeliveryBytes = 8;                        // beside the buffers that fab and sb hold to --memory
 
 struct Candidate {
@@ -51,7 +54,8 @@ gl::Look lookAtScene(gl::Frame& frame, bool atAllPixels) {
 MethodCounts drawAuto(gl::Frame& frame, const MethodOptions& options) {
   if (!frame.look || frame.look->wasTooLittle) frame.look = lookAtScene(frame, frame.look.has_value());
   const gl::Look look = *frame.look;
-  const std::uint64_t pixels = frame.pixelCount(), budget = options.memoryBytes ? options.memoryBytes : kUnlimited;
+  const bool statesFit = frame.statesFit();
+  const std::uint64_t pixels = frame.pixelCount(), budget = options.memoryBytes ? options.memoryBytes : statesFit ? kUnlimited : kEndless;
   const Candidate candidates[] = {{"fab", drawFab, pixels * (4 + 8 * std::max<std::uint64_t>(look.deepest, 1)) + 12 + kDeliveryBytes},
                                   {"ll", drawLl, pixels * 4 + look.fragments * 12 + 68 + kDeliveryBytes},
                                   {"sb", drawSb, pixels * 8 + look.fragments * 8 + 264 + kDeliveryBytes},
@@ -64,7 +68,8 @@ MethodCounts drawAuto(gl::Frame& frame, const MethodOptions& options) {
   std::string tooShort;
   for (const Candidate& candidate : candidates) {
     const bool last = &candidate == std::end(candidates) - 1;
-    if (candidate.bytes > budget && !last) continue;
+    const bool wantsStates = candidate.draw != drawLl && look.deepest > kShort;
+    if ((candidate.bytes > budget || (wantsStates && !statesFit)) && !last) continue;
     MethodCounts counts = candidate.draw(frame, own);
     if (counts.repeats > 0 || counts.overflow > 0) frame.look->wasTooLittle = true;
     if (counts.overflow > 0) {

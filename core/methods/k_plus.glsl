@@ -18,9 +18,13 @@ void main() {
   uint pixel = pixelIndex(), first = pixel * uint(K);
   bool wanted = !gl_HelperInvocation && !beyondOccupancy(fragment.x);
   if (wanted) atomicAdd(seen[pixel], 1u);
-  wanted = wanted && !tooFar(first, kept[pixel], fragment);
+  wanted = wanted && !tooFar(pixel, fragment);
   beginInvocationInterlockARB();
-  if (wanted) kept[pixel] = keepNearest(first, kept[pixel], fragment);
+  if (wanted) {
+    uint count = keepNearest(first, kept[pixel], fragment);
+    memoryBarrierBuffer();   // the count says what lies at place 0
+    kept[pixel] = count;
+  }
   endInvocationInterlockARB();
 }
 
@@ -33,7 +37,7 @@ void main() {
   if (gl_HelperInvocation || beyondOccupancy(fragment.x)) return;
   uint pixel = pixelIndex(), first = pixel * uint(K);
   atomicAdd(seen[pixel], 1u);
-  bool done = tooFar(first, kept[pixel] & ~K_IN_USE, fragment);
+  bool done = tooFar(pixel, fragment);
   while (!done) {
     uint count = atomicOr(kept[pixel], K_IN_USE);
     if ((count & K_IN_USE) == 0u) {

@@ -144,6 +144,26 @@ TEST(GlBuffers, tenThousandFragmentsInAPixel) {
   }
 }
 
+// One invocation walks the five lists of a pixel: together they are held to what drivers' loops allow.
+TEST(GlBuffers, listsOfBucketsAreCountedTogether) {
+  const auto stackOf = [](std::uint32_t count) {
+    Mesh stack;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const double z = 0.001 * i;
+      for (const glm::dvec3 corner : {glm::dvec3(-9, -9, z), glm::dvec3(9, -9, z), glm::dvec3(0, 9, z)}) stack.vertices.push_back(corner);
+      stack.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+    }
+    return Scene({{share(stack), glm::dmat4(1.0)}});
+  };
+  const Scene some = stackOf(18'000), tooMany = stackOf(30'000);
+  const PlaneClasses planesOfSome(some, 0), planesOfTooMany(tooMany, 0);
+  gl::Renderer renderer(some, planesOfSome), refusing(tooMany, planesOfTooMany);
+  const GlStacks stacks = glStacksOf(renderer, above(1, 1, 0.1), findMethod("bun-ll")->draw, {}, 18'000);
+  ASSERT_EQ(stacks.stacks.pixels[0].size(), 18'000u);
+  for (std::uint32_t i = 0; i < 18'000; ++i) ASSERT_EQ(stacks.stacks.pixels[0][i][0].primitive, 17'999 - i);
+  EXPECT_THROW(glStacksOf(refusing, above(1, 1, 0.1), findMethod("bun-ll")->draw, {}, 30'000), Error);
+}
+
 // A driver would end in a fault rather than say so.
 TEST(GlBuffers, whatShadersCannotAddressIsRefused) {
   const Scene scene = copiesOf(share(squareAt(0)), 1);

@@ -123,7 +123,10 @@ TEST(GlShaders, pixelPassesKeepHelperInvocationsOut) {
     ++pixelPasses;
     EXPECT_EQ(made.fragmentPath, "core/gl/pixels.glsl");
     std::vector<std::string> files;
-    EXPECT_NE(gl::shaderSource(made.fragmentPath, made.defines, files).find("if (!gl_HelperInvocation) pixelMain();"), std::string::npos);
+    const std::string source = gl::shaderSource(made.fragmentPath, made.defines, files);
+    EXPECT_LT(source.find("#define main pixelMain"), source.find("void main()"));
+    EXPECT_LT(source.find("void main()"), source.find("#undef main"));
+    EXPECT_NE(source.find("if (!gl_HelperInvocation) pixelMain();"), std::string::npos);
   }
   EXPECT_GT(pixelPasses, 20u);
 }
