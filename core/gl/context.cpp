@@ -63,7 +63,8 @@ void liftDataLimit() {
 
 bool hasExtension(const char* name) { return epoxy_has_gl_extension(name); }
 
-bool isSoftwareRenderer(const std::string& name) {
+bool isSoftwareRenderer() {
+  const std::string name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   return name.find("llvmpipe") != std::string::npos || name.find("softpipe") != std::string::npos || name.find("SWR") != std::string::npos;
 }
 
@@ -85,7 +86,7 @@ Context::Context() {
   if (!any) failMachine("gl: no EGL display without a window (Debian package libegl-mesa0)");
   if (!context_) failMachine("gl: no OpenGL 4.5 core context here");
   renderer_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  software_ = isSoftwareRenderer(renderer_);
+  software_ = isSoftwareRenderer();
   ++contexts;
 }
 

@@ -23,10 +23,9 @@ class Context {
   bool software_ = false;
 };
 
-bool hasExtension(const char* name);   // of the current context
-
-// By the driver's name of itself.
-bool isSoftwareRenderer(const std::string& name);
+// Of the current context.
+bool hasExtension(const char* name);
+bool isSoftwareRenderer();   // by the driver's name of itself
 
 // Throws Error{Machine} if the driver has found fault with anything since the last call; `doing` says in what.
 void checkErrors(const char* doing);

@@ -24,7 +24,7 @@ bool named(GLenum what, std::uint64_t& value) {
   GLint64 number = 0;
   glGetInteger64v(what, &number);
   value = static_cast<std::uint64_t>(std::max<GLint64>(number, 0));
-  return number > 0 && !isSoftwareRenderer(reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
+  return number > 0 && !isSoftwareRenderer();
 }
 
 }  // namespace

@@ -8,8 +8,6 @@
 namespace copeel::gl {
 namespace {
 
-bool isSoftware() { return isSoftwareRenderer(reinterpret_cast<const char*>(glGetString(GL_RENDERER))); }
-
 Handle<deleteBuffer> newBuffer() {
   GLuint name = 0;
   glCreateBuffers(1, &name);
@@ -29,7 +27,7 @@ Buffer::Buffer(std::size_t bytes, const void* data) : bytes_(std::max<std::size_
   share_ = DeviceMemory(bytes_);
   name_ = newBuffer();
   // A buffer of nothing is not allowed, and an empty scene is: the data fill what there is of them.
-  const GLbitfield use = GL_DYNAMIC_STORAGE_BIT | (isSoftware() ? GL_MAP_READ_BIT : 0);
+  const GLbitfield use = GL_DYNAMIC_STORAGE_BIT | (isSoftwareRenderer() ? GL_MAP_READ_BIT : 0);
   glNamedBufferStorage(name_, static_cast<GLsizeiptr>(bytes_), bytes == bytes_ ? data : nullptr, use);
   if (bytes > 0 && bytes < bytes_ && data) write(data, bytes);
   // What is drawn without its memory would look right here and there.
@@ -44,7 +42,7 @@ void Buffer::clear(GLuint word) const { glClearNamedBufferData(name_, GL_R32UI, 
 void Buffer::visit(std::size_t offset, std::size_t count, const std::function<void(const void*)>& visitor) const {
   if (count == 0) return;
   constexpr std::size_t kLittle = 65536;
-  const bool copies = count <= kLittle || !isSoftware();
+  const bool copies = count <= kLittle || !isSoftwareRenderer();
   const auto size = static_cast<GLsizeiptr>(count);
   if (copies) {
     if (readBackBytes_ < count) {

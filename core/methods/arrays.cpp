@@ -8,7 +8,6 @@ namespace copeel {
 namespace {
 
 constexpr std::uint32_t kRound = 1024;   // ARRAY_ROUND of sort_array.glsl
-constexpr std::size_t kShort = 128;      // SORT_SHORT of sort_short.glsl
 
 }  // namespace
 
@@ -32,7 +31,7 @@ void deliverArrays(gl::Frame& frame, const std::string& file, const gl::Buffer& 
   frame.texels(fragments, COPEEL_TEXTURE_METHOD, GL_RG32UI);
   frame.drawPixels(program("RESOLVE", frame.wholeDefines()));
   // To ask means to wait for the pass.
-  const std::uint32_t longest = most > kShort ? putOff.read<std::uint32_t>(1)[0] : 0;
+  const std::uint32_t longest = most > kShortArray ? putOff.read<std::uint32_t>(1)[0] : 0;
   if (longest == 0) return;
   frame.makeStates();
   if (!frame.usesStates()) frame.drawPixels(program("BEGIN", {}));

@@ -2,10 +2,10 @@
 // Based on: Vasilakis, Fudos. Depth-Fighting Aware Methods for Multifragment Rendering. IEEE TVCG 19(6), 2013, section 4.4, as a rule of thumb: buffers
 // where memory allows, constant memory where it does not.
 // A look is a pass that counts the fragments of the image at a fourth of its width and height (small images: of all pixels); later frames use its
-// numbers until they prove too small. First comes fab, as long as the arrays for the deepest pixel fit; then sb, which takes what the fragments
-// take; ll, which takes less where most pixels are empty; hybrid in constant memory. A method that finds its memory too short delivers nothing
-// and leaves the frame to the next one, so that a look that saw too little costs time and no fragment. Of images too large for states (Frame::statesFit)
-// the first three alone are asked, with all memory there is.
+// numbers until they prove too small. First comes fab, as long as the arrays for the deepest pixel fit; then ll, which takes what the fragments
+// take; sb, which takes less for each of them; hybrid in constant memory. A method that finds its memory too short delivers nothing
+// and leaves the frame to the next one, so that a look that saw too little costs time and no fragment. Images too large for states (Frame::statesFit)
+// have all memory there is, and hybrid says that it cannot draw them.
 // Passes: those of the method, the look's and those of methods that were too short. Bytes: those of the method, at most --memory where that is 28 a
 // pixel or more. Loses: nothing.
 #include <algorithm>
@@ -14,8 +14,9 @@
 
 #include <fmt/format.h>
 
-#include "core/methods/methods_gl.h"
 #include "core/gl/frame.h"
+#include "core/methods/arrays.h"
+#include "core/methods/methods_gl.h"
 
 namespace copeel {
 namespace {
@@ -23,8 +24,7 @@ namespace {
 constexpr std::size_t kSmallImage = 1 << 16;                       // pixels
 constexpr int kStep = 4;                                           // pixels of a larger one from one that is counted to the next
 constexpr std::uint64_t kUnlimited = std::uint64_t{512} << 20;     // bytes, without --memory, where hybrid can take over
-constexpr std::uint64_t kEndless = std::uint64_t{1} << 62;          // where it cannot
-constexpr std::uint32_t kShort = 128;                              // SORT_SHORT: arrays of more have states
+constexpr std::uint64_t kEndless = std::uint64_t{1} << 62;         // where it cannot
 constexpr std::uint64_t kDeliveryBytes = 8;                        // beside the buffers that fab and sb hold to --memory
 
 struct Candidate {
@@ -68,7 +68,7 @@ MethodCounts drawAuto(gl::Frame& frame, const MethodOptions& options) {
   std::string tooShort;
   for (const Candidate& candidate : candidates) {
     const bool last = &candidate == std::end(candidates) - 1;
-    const bool wantsStates = candidate.draw != drawLl && look.deepest > kShort;
+    const bool wantsStates = candidate.draw != drawLl && look.deepest > kShortArray;
     if ((candidate.bytes > budget || (wantsStates && !statesFit)) && !last) continue;
     MethodCounts counts = candidate.draw(frame, own);
     if (counts.repeats > 0 || counts.overflow > 0) frame.look->wasTooLittle = true;
