@@ -51,7 +51,7 @@ inline void OverFold::putColors(std::uint64_t pixels, const fold::BlendedPixel* 
   }
 }
 
-std::uint64_t OverFold::foldBlock(const cpu::FragmentGrid::Block& block, const cpu::Tile& tile, const cpu::BlockOrder& order, int x, int y) {
+std::uint64_t OverFold::foldBlock(const cpu::FragmentBlock& block, const cpu::Tile& tile, const cpu::BlockOrder& order, int x, int y) {
   fold::BlendedPixel blended[cpu::kBlockPixels];
   const std::uint64_t coplanar = fold::blendBlock({block, tile.format, colors_.data(), background_, mayEnd_}, order, blended);
   const bool wantsNearest = canvas_.targets().depth || canvas_.targets().ids;
@@ -65,7 +65,7 @@ std::uint64_t OverFold::foldBlock(const cpu::FragmentGrid::Block& block, const c
     PixelResult result;
     result.color = {from.color[0], from.color[1], from.color[2]};
     result.bytes = from.bytes;
-    if (wantsNearest) result.nearest = nearestSeen({block.keys.get() + p, block.counts[p], cpu::kBlockPixels, tile.format, tile.slots.data()});
+    if (wantsNearest) result.nearest = nearestSeen(stackOf(block, p, tile));
     canvas_.put({x + p % cpu::kBlockSize, y + p / cpu::kBlockSize, 1, 1}, result, tile);
   }
   return coplanar;

@@ -118,7 +118,7 @@ class OverFold {
   }
 
   // Whole blocks at once (core/fold/fold.h). Layers and groups are counted pixel by pixel.
-  std::uint64_t foldBlock(const cpu::FragmentGrid::Block& block, const cpu::Tile& tile, const cpu::BlockOrder& order, int x, int y);
+  std::uint64_t foldBlock(const cpu::FragmentBlock& block, const cpu::Tile& tile, const cpu::BlockOrder& order, int x, int y);
 
   // The z-buffer's pixel, which has one fragment.
   PixelResult single(const cpu::TileSlot& slot, const cpu::Tile& tile) const;

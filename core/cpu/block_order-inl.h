@@ -11,6 +11,55 @@
 #include "core/cpu/block_order.h"
 #include "core/fold/fold.h"
 
+#ifndef COPEEL_SORT_STEPS_
+#define COPEEL_SORT_STEPS_
+
+namespace copeel::cpu {
+
+// `visit(i, j)`, i < j: the compare-exchanges of Batcher's odd-even merge sort of n elements. Based on: Batcher. Sorting networks and their applications.
+// AFIPS 1968.
+template <class Visit>
+constexpr void forEachSortStep(std::uint32_t n, const Visit& visit) {
+  for (std::uint32_t log = 0; (1u << log) < n; ++log) {
+    const std::uint32_t p = 1u << log;
+    for (std::uint32_t k = p; k >= 1; k /= 2) {
+      for (std::uint32_t j = k & (p - 1); j + k < n; j += 2 * k) {
+        const std::uint32_t end = j + k < n - k ? j + k : n - k;
+        for (std::uint32_t i = j; i < end; ++i) {
+          if (i >> (log + 1) == (i + k) >> (log + 1)) visit(i, i + k);
+        }
+      }
+    }
+  }
+}
+
+inline constexpr std::uint32_t kMostTabledLayers = 64;
+
+struct SortStep {
+  std::uint8_t first, second;
+};
+
+// The steps of up to so many layers one after another, as finding the next one takes as long as the step.
+struct SortSteps {
+  std::uint16_t begin[kMostTabledLayers + 2] = {};
+  SortStep steps[15174] = {};
+
+  constexpr SortSteps() {
+    std::uint16_t count = 0;
+    for (std::uint32_t n = 0; n <= kMostTabledLayers; ++n) {
+      begin[n] = count;
+      forEachSortStep(n, [&](std::uint32_t i, std::uint32_t j) { steps[count++] = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j)}; });
+    }
+    begin[kMostTabledLayers + 1] = count;
+  }
+  std::span<const SortStep> of(std::uint32_t n) const { return {steps + begin[n], steps + begin[n + 1]}; }
+};
+inline constexpr SortSteps kSortSteps;
+
+}  // namespace copeel::cpu
+
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace copeel::cpu {
 namespace HWY_NAMESPACE {
@@ -31,69 +80,75 @@ HWY_INLINE HWY_ATTR void compareExchange(std::uint64_t* p, std::uint64_t* q) {
   }
 }
 
-// Batcher's odd-even merge sort of n layers, eight pixels at once. Based on: Batcher. Sorting networks and their applications. AFIPS 1968.
 // `stride`: keys from one layer to the next.
 HWY_INLINE HWY_ATTR void sortLayers(std::uint64_t* layers, std::uint32_t n, std::size_t stride) {
-  for (std::uint32_t log = 0; (1u << log) < n; ++log) {
-    const std::uint32_t p = 1u << log;
-    for (std::uint32_t k = p; k >= 1; k /= 2) {
-      for (std::uint32_t j = k & (p - 1); j + k < n; j += 2 * k) {
-        const std::uint32_t end = j + k < n - k ? j + k : n - k;
-        for (std::uint32_t i = j; i < end; ++i) {
-          if (i >> (log + 1) != (i + k) >> (log + 1)) continue;
-          compareExchange(layers + i * stride, layers + (i + k) * stride);
-        }
-      }
-    }
+  if (n <= kMostTabledLayers) {
+    for (const SortStep& step : kSortSteps.of(n)) compareExchange(layers + step.first * stride, layers + step.second * stride);
+    return;
   }
+  forEachSortStep(n, [&](std::uint32_t i, std::uint32_t j) HWY_ATTR { compareExchange(layers + i * stride, layers + j * stride); });
 }
 
 // Beyond so many layers the steps of the network miss the caches, and sorting the keys of each pixel side by side is faster (measured, whole frames:
 // 2,000 layers 1.5 times, 32,000 layers 2.3 times).
 constexpr std::uint32_t kMostNetworkLayers = 1024;
 
-// Layers of a row lie 512 bytes apart, so that of 64 lines on the way only some places of the cache are theirs: more layers are sorted side by side.
+// Layers of a row may lie 512 bytes apart, so that of 64 lines on the way only some places of the cache are theirs: more layers are sorted side by side.
 constexpr std::uint32_t kMostLayersInPlace = 32;
 
-HWY_ATTR void sortRow(std::uint64_t* keys, std::uint32_t n) {
-  if (n <= kMostLayersInPlace) return sortLayers(keys, n, kBlockPixels);
+HWY_ATTR void sortRow(std::uint64_t* keys, std::uint32_t n, std::size_t stride) {
+  if (n <= kMostLayersInPlace) return sortLayers(keys, n, stride);
   alignas(64) std::uint64_t row[kMostNetworkLayers * kBlockSize];
-  for (std::uint32_t i = 0; i < n; ++i) __builtin_memcpy(row + i * kBlockSize, keys + std::size_t{i} * kBlockPixels, sizeof(std::uint64_t) * kBlockSize);
+  for (std::uint32_t i = 0; i < n; ++i) __builtin_memcpy(row + i * kBlockSize, keys + i * stride, sizeof(std::uint64_t) * kBlockSize);
   sortLayers(row, n, kBlockSize);
-  for (std::uint32_t i = 0; i < n; ++i) __builtin_memcpy(keys + std::size_t{i} * kBlockPixels, row + i * kBlockSize, sizeof(std::uint64_t) * kBlockSize);
+  for (std::uint32_t i = 0; i < n; ++i) __builtin_memcpy(keys + i * stride, row + i * kBlockSize, sizeof(std::uint64_t) * kBlockSize);
 }
 
-inline void sortColumn(std::uint64_t* keys, std::uint32_t count) {
+inline void sortColumn(std::uint64_t* keys, std::uint32_t count, std::size_t stride) {
   std::vector<std::uint64_t> column(count);
-  for (std::uint32_t i = 0; i < count; ++i) column[i] = keys[std::size_t{i} * kBlockPixels];
+  for (std::uint32_t i = 0; i < count; ++i) column[i] = keys[i * stride];
   std::sort(column.begin(), column.end());
-  for (std::uint32_t i = 0; i < count; ++i) keys[std::size_t{i} * kBlockPixels] = column[i];
+  for (std::uint32_t i = 0; i < count; ++i) keys[i * stride] = column[i];
 }
 
-HWY_ATTR void SortBlock(FragmentGrid::Block& block) {
+HWY_INLINE HWY_ATTR std::uint32_t largestOf(const std::uint32_t* counts) {
+  const hn::CappedTag<std::uint32_t, kBlockSize> d;
+  auto largest = hn::LoadU(d, counts);
+  for (std::size_t lane = hn::Lanes(d); lane < kBlockSize; lane += hn::Lanes(d)) largest = hn::Max(largest, hn::LoadU(d, counts + lane));
+  return hn::GetLane(hn::MaxOfLanes(d, largest));
+}
+
+HWY_ATTR void SortBlock(const FragmentBlock& block) {
   for (int row = 0; row < kBlockSize; ++row) {
     const std::uint32_t* counts = block.counts + row * kBlockSize;
-    std::uint32_t n = 0;
-    for (int k = 0; k < kBlockSize; ++k) n = counts[k] > n ? counts[k] : n;
-    if (n < 2) continue;
-    std::uint64_t* keys = block.keys.get() + row * kBlockSize;
+    const std::uint32_t n = largestOf(counts);
+    if (n == 0) continue;
+    std::uint64_t* keys = block.keys + row * kBlockSize;
     for (int k = 0; k < kBlockSize; ++k) {
-      for (std::uint32_t layer = counts[k]; layer < n; ++layer) keys[std::size_t{layer} * kBlockPixels + k] = kEmptyKey;
-      if (n > kMostNetworkLayers) sortColumn(keys + k, counts[k]);
+      for (std::uint32_t layer = counts[k]; layer < n; ++layer) keys[std::size_t{layer} * block.stride + k] = kEmptyKey;
+      if (n > kMostNetworkLayers) sortColumn(keys + k, counts[k], block.stride);
     }
-    if (n <= kMostNetworkLayers) sortRow(keys, n);
+    if (n > 1 && n <= kMostNetworkLayers) sortRow(keys, n, block.stride);
   }
 }
 
+template <class Mask>
+HWY_INLINE HWY_ATTR std::uint32_t bitsOf(Mask mask) {
+  const I64 d;
+  std::uint8_t byte[8] = {};
+  hn::StoreMaskBits(d, mask, byte);
+  return std::uint32_t{byte[0]} & ((1u << hn::Lanes(d)) - 1);
+}
+
 // Lanes where a key and the next are `reach` or less apart; both fragments, or none.
-HWY_INLINE HWY_ATTR std::uint32_t closeLanes(const std::uint64_t* keys, KeyFormat format, std::uint64_t reach) {
+HWY_INLINE HWY_ATTR std::uint32_t closeLanes(const std::uint64_t* keys, const std::uint64_t* next, KeyFormat format, std::uint64_t reach) {
   const I64 d;
   std::uint32_t mask = 0;
   for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(d)) {
     const auto depth = [&](const std::uint64_t* at) HWY_ATTR {
       return hn::BitCast(d, hn::ShiftRightSame(hn::LoadU(U64(), at + lane), format.slotBits()));
     };
-    const auto gap = hn::Sub(depth(keys + kBlockPixels), depth(keys));
+    const auto gap = hn::Sub(depth(next), depth(keys));
     std::uint8_t byte[8] = {};
     hn::StoreMaskBits(d, hn::Lt(gap, hn::Set(d, static_cast<std::int64_t>(reach) + 1)), byte);
     mask |= (std::uint32_t{byte[0]} & ((1u << hn::Lanes(d)) - 1)) << lane;
@@ -101,10 +156,11 @@ HWY_INLINE HWY_ATTR std::uint32_t closeLanes(const std::uint64_t* keys, KeyForma
   return mask;
 }
 
-// Lanes 1 … 7 where a key has the slot of the one before.
+// Lanes 1 … 7 where a key has the slot of the one before, or both are none.
 HWY_INLINE HWY_ATTR std::uint32_t sameSlots(const std::uint64_t* keys, KeyFormat format) {
   const U64 u;
-  const auto slot = hn::Set(u, (std::uint64_t{1} << format.slotBits()) - 1);
+  constexpr std::uint64_t kNone = std::uint64_t{1} << kKeyBits;   // the bit that kEmptyKey has, and no key
+  const auto slot = hn::Set(u, ((std::uint64_t{1} << format.slotBits()) - 1) | kNone);
   std::uint32_t mask = 0;
   for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(u)) {
     const auto differs = hn::And(hn::Xor(hn::LoadU(u, keys + lane), hn::LoadU(u, keys + lane + 1)), slot);
@@ -115,39 +171,78 @@ HWY_INLINE HWY_ATTR std::uint32_t sameSlots(const std::uint64_t* keys, KeyFormat
   return mask << 1 & 0xFE;
 }
 
-HWY_ATTR BlockOrder OrderOfBlock(const FragmentGrid::Block& block, const Tile& tile) {
-  const KeyFormat format = tile.format;
-  const std::uint64_t reach = 2 * format.uncertainty;
-  const TileSlot* const slots = tile.slots.data();
+// Of a row's first layer.
+HWY_INLINE HWY_ATTR std::uint32_t filledLanes(const std::uint64_t* keys) {
+  const I64 d;
+  std::uint32_t mask = 0;
+  for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(d)) {
+    mask |= bitsOf(hn::Ne(hn::BitCast(d, hn::LoadU(U64(), keys + lane)), hn::Set(d, static_cast<std::int64_t>(kEmptyKey)))) << lane;
+  }
+  return mask;
+}
+
+// Of a row, a bit for each pixel.
+struct Neighbours {
+  std::uint32_t coplanar = 0, open = 0;   // some that are close in depth are of one plane class, of two
+};
+
+// keys: of the row, with kEmptyKey where other pixels have more.
+HWY_INLINE HWY_ATTR Neighbours closeNeighbours(const std::uint64_t* keys, std::size_t stride, std::uint32_t layers, const Tile& tile) {
+  const U64 u;
+  const I64 d;
+  const auto reach = hn::Set(d, static_cast<std::int64_t>(2 * tile.format.uncertainty) + 1), none = hn::BitCast(d, hn::Set(u, kEmptyKey));
+  const auto depthOf = [&](hn::Vec<U64> key) HWY_ATTR { return hn::BitCast(d, hn::ShiftRightSame(key, tile.format.slotBits())); };
+  const auto classOf = [&](hn::Vec<U64> key) HWY_ATTR {
+    static_assert(offsetof(TileSlot, planeClass) + sizeof(std::uint64_t) <= sizeof(TileSlot));
+    const auto slot = hn::And(key, hn::Set(u, tile.lastSlot()));
+    const auto offset = hn::BitCast(d, hn::Add(hn::ShiftLeft<4>(slot), hn::ShiftLeft<3>(slot)));
+    static_assert(sizeof(TileSlot) == 24);
+    return hn::And(hn::GatherOffset(u, reinterpret_cast<const std::uint64_t*>(&tile.slots.data()->planeClass), offset), hn::Set(u, 0xFFFFFFFFu));
+  };
+  Neighbours result;
+  for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(u)) {
+    auto coplanar = hn::Lt(reach, reach), open = coplanar;   // no lane
+    auto here = hn::LoadU(u, keys + lane), classHere = hn::Zero(u);
+    auto depth = depthOf(here);
+    bool known = false;   // classHere
+    for (std::uint32_t i = 1; i < layers; ++i) {
+      const auto next = hn::LoadU(u, keys + i * stride + lane);
+      const auto nextDepth = depthOf(next);
+      const auto close = hn::And(hn::Lt(hn::Sub(nextDepth, depth), reach), hn::Ne(hn::BitCast(d, next), none));
+      if (!hn::AllFalse(d, close)) {
+        if (!known) classHere = classOf(here);
+        const auto classNext = classOf(next);
+        const auto same = hn::Eq(hn::BitCast(d, classHere), hn::BitCast(d, classNext));
+        coplanar = hn::Or(coplanar, hn::And(close, same));
+        open = hn::Or(open, hn::AndNot(same, close));
+        classHere = classNext;
+        known = true;
+      } else {
+        known = false;
+      }
+      here = next, depth = nextDepth;
+    }
+    result.coplanar |= bitsOf(coplanar) << lane;
+    result.open |= bitsOf(open) << lane;
+  }
+  return result;
+}
+
+HWY_ATTR BlockOrder OrderOfBlock(const FragmentBlock& block, const Tile& tile) {
   BlockOrder order;
   for (int row = 0; row < kBlockSize; ++row) {
     const std::uint32_t* counts = block.counts + row * kBlockSize;
-    const std::uint64_t* keys = block.keys.get() + row * kBlockSize;
-    std::uint32_t most = 0, filled = 0, alike = 0;
-    for (int k = 0; k < kBlockSize; ++k) {
-      most = counts[k] > most ? counts[k] : most;
-      filled |= std::uint32_t{counts[k] > 0} << k;
-      alike |= std::uint32_t{k > 0 && counts[k] == counts[k - 1]} << k;
-    }
-    std::uint32_t open = 0, coplanar = 0, before = 0;   // before: lanes whose class is known, as they were close to the key before
-    std::uint32_t classes[kBlockSize];
-    for (int k = 0; k < kBlockSize && tile.coarse; ++k) open |= std::uint32_t{PixelStack{keys + k, counts[k], kBlockPixels, format, slots}.hasCoarse()} << k;
-    for (std::uint32_t i = 0; i < most; ++i, keys += kBlockPixels) {
-      if (alike) alike &= sameSlots(keys, format);
-      if (i + 1 == most) break;
-      const std::uint32_t close = closeLanes(keys, format, reach) & ~open;
-      for (std::uint32_t left = close; left; left &= left - 1) {
-        const int k = __builtin_ctz(left);
-        if (i + 1 >= counts[k]) continue;
-        const std::uint32_t here = before >> k & 1 ? classes[k] : slots[format.slotOf(keys[k])].planeClass;
-        classes[k] = slots[format.slotOf(keys[kBlockPixels + k])].planeClass;
-        (here == classes[k] ? coplanar : open) |= 1u << k;
-      }
-      before = close;
-    }
+    const std::uint64_t* keys = block.keys + row * kBlockSize;
+    const std::uint32_t most = largestOf(counts);
+    if (most == 0) continue;
+    const Neighbours neighbours = closeNeighbours(keys, block.stride, most, tile);
+    std::uint32_t open = neighbours.open;
+    for (int k = 0; k < kBlockSize && tile.coarse; ++k) open |= std::uint32_t{stackOf(block, row * kBlockSize + k, tile).hasCoarse()} << k;
+    std::uint32_t alike = 0xFE, filled = filledLanes(keys);
+    for (std::uint32_t i = 0; i < most && alike; ++i) alike &= sameSlots(keys + std::size_t{i} * block.stride, tile.format);
     const std::uint32_t certain = filled & ~open;
     order.certain |= std::uint64_t{certain} << (row * kBlockSize);
-    order.coplanar |= std::uint64_t{coplanar & certain} << (row * kBlockSize);
+    order.coplanar |= std::uint64_t{neighbours.coplanar & certain} << (row * kBlockSize);
     order.repeats |= std::uint64_t{alike & certain & certain << 1} << (row * kBlockSize);
   }
   return order;
@@ -162,7 +257,7 @@ HWY_INLINE HWY_ATTR bool hasOneSlot(const std::uint64_t* keys, std::uint64_t slo
   return hn::AllTrue(u, hn::Eq(hn::And(differs, hn::Set(u, slotMask)), hn::Zero(u)));
 }
 
-HWY_ATTR bool SameStacks(const FragmentGrid::Block& block, const Tile& tile) {
+HWY_ATTR bool SameStacks(const FragmentBlock& block, const Tile& tile) {
   constexpr std::uint32_t kMostLayers = 16;   // with more, few blocks are alike
   const hn::CappedTag<std::uint32_t, kBlockSize> d;
   const std::uint32_t count = block.counts[0];
@@ -174,13 +269,13 @@ HWY_ATTR bool SameStacks(const FragmentGrid::Block& block, const Tile& tile) {
   const KeyFormat format = tile.format;
   const TileSlot* before = nullptr;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint64_t* keys = block.keys.get() + std::size_t{i} * kBlockPixels;
+    const std::uint64_t* keys = block.layer(i);
     if (!hasOneSlot(keys, (std::uint64_t{1} << format.slotBits()) - 1)) return false;
     const TileSlot& slot = tile.slots[format.slotOf(keys[0])];
     if (slot.coarseBound) return false;
     if (before && before->planeClass != slot.planeClass) {
       for (int row = 0; row < kBlockSize; ++row) {
-        if (closeLanes(keys - kBlockPixels + row * kBlockSize, format, 2 * format.uncertainty)) return false;
+        if (closeLanes(block.layer(i - 1) + row * kBlockSize, keys + row * kBlockSize, format, 2 * format.uncertainty)) return false;
       }
     }
     before = &slot;

@@ -19,10 +19,10 @@ HWY_EXPORT(SortBlock);
 HWY_EXPORT(OrderOfBlock);
 HWY_EXPORT(SameStacks);
 
-void sortBlock(FragmentGrid::Block& block) { HWY_DYNAMIC_DISPATCH(SortBlock)(block); }
+void sortBlock(const FragmentBlock& block) { HWY_DYNAMIC_DISPATCH(SortBlock)(block); }
 
-BlockOrder orderOfBlock(const FragmentGrid::Block& block, const Tile& tile) { return HWY_DYNAMIC_DISPATCH(OrderOfBlock)(block, tile); }
+BlockOrder orderOfBlock(const FragmentBlock& block, const Tile& tile) { return HWY_DYNAMIC_DISPATCH(OrderOfBlock)(block, tile); }
 
-bool sameStacks(const FragmentGrid::Block& block, const Tile& tile) { return HWY_DYNAMIC_DISPATCH(SameStacks)(block, tile); }
+bool sameStacks(const FragmentBlock& block, const Tile& tile) { return HWY_DYNAMIC_DISPATCH(SameStacks)(block, tile); }
 
 }  // namespace copeel::cpu

@@ -10,7 +10,7 @@ namespace copeel::cpu {
 class Tile;
 
 // Sorts each pixel's fragments of a block, front to back.
-void sortBlock(FragmentGrid::Block& block);
+void sortBlock(const FragmentBlock& block);
 
 // What the keys of a sorted block tell of its pixels that have fragments, a bit each.
 struct BlockOrder {
@@ -20,9 +20,9 @@ struct BlockOrder {
 
   BlockOrder without(std::uint64_t pixels) const { return {certain & ~pixels, coplanar & ~pixels, repeats & ~(pixels | pixels << 1)}; }
 };
-BlockOrder orderOfBlock(const FragmentGrid::Block& block, const Tile& tile);
+BlockOrder orderOfBlock(const FragmentBlock& block, const Tile& tile);
 
 // True where all pixels of a sorted block certainly meet the same slots in the same order, as inside large faces.
-bool sameStacks(const FragmentGrid::Block& block, const Tile& tile);
+bool sameStacks(const FragmentBlock& block, const Tile& tile);
 
 }  // namespace copeel::cpu

@@ -2,6 +2,7 @@
 // lies behind it is left out. An intersection of many solids then orders next to nothing. O(fragments), against a sort of them.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,42 +15,42 @@ class BlockWindow {
  public:
   // `all`: in the order of slots.
   template <Fold F>
-  void take(F& fold, const Tile& tile, const FragmentGrid::Block& all) {
+  void take(F& fold, const Tile& tile, const FragmentBlock& all) {
     makeRoom(all);
     before_.clear();
     for (int p = 0; p < kBlockPixels; ++p) {
       firstBefore_[p] = static_cast<std::uint32_t>(before_.size());
-      block_.counts[p] = 0;
+      counts_[p] = 0;
       if (all.counts[p] == 0) continue;
-      const PixelStack stack{all.keys.get() + p, all.counts[p], kBlockPixels, tile.format, tile.slots.data()};
+      const PixelStack stack = stackOf(all, p, tile);
       const DepthRange window = fold.window(stack);
       if (!window.empty()) takePixel(stack, p, window);
     }
     firstBefore_[kBlockPixels] = static_cast<std::uint32_t>(before_.size());
   }
-  FragmentGrid::Block& block() { return block_; }
+  FragmentBlock block() { return {keys_.data(), counts_, kBlockPixels}; }
   // Slots in front of the pixel's window.
   std::span<const std::uint32_t> before(int pixel) const {
     return {before_.data() + firstBefore_[pixel], firstBefore_[pixel + 1] - firstBefore_[pixel]};
   }
 
  private:
-  void makeRoom(const FragmentGrid::Block& all) {
-    if (block_.capacity >= all.used) return;
-    block_.capacity = all.capacity;
-    block_.keys = std::make_unique_for_overwrite<std::uint64_t[]>(std::size_t{block_.capacity} * kBlockPixels);
+  void makeRoom(const FragmentBlock& all) {
+    const std::size_t size = std::size_t{*std::max_element(all.counts, all.counts + kBlockPixels)} * kBlockPixels + 1;
+    if (keys_.size() < size) keys_ = UninitializedVector<std::uint64_t>(2 * size);
   }
 
   void takePixel(const PixelStack& stack, int pixel, const DepthRange& window) {
-    std::uint64_t* out = block_.keys.get() + pixel;
+    std::uint64_t* out = keys_.data() + pixel;
     for (std::uint32_t i = 0; i < stack.count; ++i) {
       const DepthRange depth = stack.depth(i);
       if (depth.most < window.least) before_.push_back(stack.slot(i));
-      else if (depth.least <= window.most) out[std::size_t{block_.counts[pixel]++} * kBlockPixels] = stack.key(i);
+      else if (depth.least <= window.most) out[std::size_t{counts_[pixel]++} * kBlockPixels] = stack.key(i);
     }
   }
 
-  FragmentGrid::Block block_;
+  UninitializedVector<std::uint64_t> keys_;
+  std::uint32_t counts_[kBlockPixels] = {};
   std::vector<std::uint32_t> before_;
   std::uint32_t firstBefore_[kBlockPixels + 1] = {};
 };

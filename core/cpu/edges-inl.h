@@ -96,13 +96,13 @@ HWY_INLINE HWY_ATTR void addSample(const EdgeWalk& u, const EdgeWalk& v, const E
 template <int kRow>
 HWY_INLINE HWY_ATTR void addRow(EdgeWalk u, EdgeWalk v, EdgeWalk w, hn::Vec<Samples>& outside) {
   const auto step = [](EdgeWalk& walk) HWY_ATTR { walk.e = hn::Add(walk.e, walk.a); };
-  addSample<4 * kRow>(u, v, w, outside);
+  addSample<8 * kRow>(u, v, w, outside);
   step(u), step(v), step(w);
-  addSample<4 * kRow + 1>(u, v, w, outside);
+  addSample<8 * kRow + 1>(u, v, w, outside);
   step(u), step(v), step(w);
-  addSample<4 * kRow + 2>(u, v, w, outside);
+  addSample<8 * kRow + 2>(u, v, w, outside);
   step(u), step(v), step(w);
-  addSample<4 * kRow + 3>(u, v, w, outside);
+  addSample<8 * kRow + 3>(u, v, w, outside);
 }
 
 HWY_INLINE HWY_ATTR void coverLanes(EdgeBatch& batch, int i) {
@@ -121,7 +121,7 @@ HWY_INLINE HWY_ATTR void coverLanes(EdgeBatch& batch, int i) {
 }
 
 // Bits of 4×4 samples of which some columns or rows are within bounds.
-inline constexpr std::uint16_t kColumns[] = {0, 0x1111, 0x3333, 0x7777, 0xFFFF}, kRows[] = {0, 0x000F, 0x00FF, 0x0FFF, 0xFFFF};
+inline constexpr std::uint32_t kColumns[] = {0, 0x01010101, 0x03030303, 0x07070707, 0x0F0F0F0F}, kRows[] = {0, 0xF, 0xF0F, 0xF0F0F, 0xF0F0F0F};
 
 // What small triangles cover. One that covers nothing is no triangle.
 HWY_INLINE HWY_ATTR void coverSmall(EdgeBatch& batch, int count) {
@@ -132,7 +132,7 @@ HWY_INLINE HWY_ATTR void coverSmall(EdgeBatch& batch, int count) {
       batch.covered[i] = 0;
       continue;
     }
-    batch.covered[i] &= kColumns[width] & kRows[height];
+    batch.covered[i] &= static_cast<std::int32_t>(kColumns[width] & kRows[height]);
     batch.samples[i] = __builtin_popcount(static_cast<unsigned>(batch.covered[i]));
     if (batch.covered[i] == 0) batch.side[i] = 0;
   }

@@ -20,7 +20,7 @@ struct EdgeBatch {
   alignas(64) std::int32_t x0[kEdgeBatch], y0[kEdgeBatch], x1[kEdgeBatch], y1[kEdgeBatch];
   // Out: about how many samples of the tile it covers.
   alignas(64) std::int32_t samples[kEdgeBatch];
-  // Out: where the bounds hold 4×4 samples at most: bit x + 4·y is set where sample (x0 + x, y0 + y) is covered. 0: larger bounds.
+  // Out: where the bounds hold 4×4 samples at most: bit x + 8·y is set where sample (x0 + x, y0 + y) is covered. 0: larger bounds.
   alignas(64) std::int32_t covered[kEdgeBatch];
   // Out: edge i is a·x + b·y + c >= 0 on the inner side (TriangleSetup); all zero for an edge that holds all of the bounds on its inner side.
   alignas(64) std::int32_t a[3][kEdgeBatch], b[3][kEdgeBatch], c[3][kEdgeBatch];

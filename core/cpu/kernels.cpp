@@ -47,45 +47,42 @@ void chooseSimd(const char* name) {
   hwy::GetChosenTarget().DeInit();
 }
 
-void FragmentGrid::clear() {
-  for (Block& block : blocks_) {
-    block.used = 0;
-    std::fill(std::begin(block.counts), std::end(block.counts), 0u);
-  }
+void FragmentGrid::begin(const BlockRect& rect) {
+  constexpr std::size_t kUnlimited = ~std::size_t{0};
+  const bool isBlock = rect.count() == 1;
+  stride_ = isBlock ? kBlockPixels : kTileStride;
+  origin_ = isBlock ? static_cast<std::uint32_t>(rect.by0 * kBlocksPerSide + rect.bx0) * kBlockPixels : 0;
+  limitBytes_ = isBlock ? kUnlimited : budgetBytes_;
+  capacity_ = static_cast<std::uint32_t>(keys_.size() / stride_);
+  std::fill(std::begin(counts_), std::end(counts_), 0u);
+}
+
+FragmentGrid::Room FragmentGrid::room(std::uint32_t used) {
+  constexpr std::uint32_t kLeastRoom = 32;   // layers: finding out how many are in use should be rare
+  if (used + kLeastRoom > capacity_ && !grow(std::max(used + kLeastRoom, 2 * capacity_))) return {};
+  return {keys_.data(), counts_, stride_, origin_, capacity_ - used};
+}
+
+bool FragmentGrid::grow(std::size_t layers) {
+  const std::size_t size = layers * stride_;
+  if (size * sizeof(std::uint64_t) > limitBytes_) return false;
+  // The last pixel's neighbour is read.
+  UninitializedVector<std::uint64_t> keys(size + 1);
+  std::copy_n(keys_.data(), std::size_t{capacity_} * stride_, keys.data());
+  keys_.swap(keys);
+  capacity_ = static_cast<std::uint32_t>(layers);
+  return true;
 }
 
 // Of the buffers the last layer alone is written: there "no fragment" is farther than every key, whatever the layers before it hold.
 void NearestGrid::clear() {
   for (Block& block : blocks_) {
-    FragmentGrid::Block& kept = block.kept;
-    if (kept.capacity != k_) {
-      kept.keys = std::make_unique_for_overwrite<std::uint64_t[]>(std::size_t{k_} * kBlockPixels);
-      kept.capacity = kept.used = k_;
-    }
-    std::fill_n(kept.keys.get() + std::size_t{k_ - 1} * kBlockPixels, kBlockPixels, kEmptyKey);
-    std::fill(std::begin(kept.counts), std::end(kept.counts), 0u);
+    if (!block.keys) block.keys = std::make_unique_for_overwrite<std::uint64_t[]>(std::size_t{k_} * kBlockPixels + 1);
+    std::fill_n(block.keys.get() + std::size_t{k_ - 1} * kBlockPixels, kBlockPixels, kEmptyKey);
+    std::fill(std::begin(block.counts), std::end(block.counts), 0u);
     std::fill(std::begin(block.seen), std::end(block.seen), 0u);
     block.doubtful = 0;
   }
-}
-
-bool FragmentGrid::grow(Block& block) {
-  // `used` is an upper bound that counts triangles; fall back on the true maximum before taking memory.
-  const std::uint32_t most = *std::max_element(std::begin(block.counts), std::end(block.counts));
-  if (most < block.capacity) {
-    block.used = most;
-    return true;
-  }
-  const std::uint32_t capacity = std::max<std::uint32_t>(16, block.capacity * 2);
-  const std::size_t layerBytes = kBlockPixels * sizeof(std::uint64_t);
-  if (usedBytes_ + (capacity - block.capacity) * layerBytes > budgetBytes_) return false;
-  auto keys = std::make_unique_for_overwrite<std::uint64_t[]>(std::size_t{capacity} * kBlockPixels + 1);
-  if (most > 0) std::memcpy(keys.get(), block.keys.get(), most * layerBytes);
-  usedBytes_ += (capacity - block.capacity) * layerBytes;
-  block.keys = std::move(keys);
-  block.capacity = capacity;
-  block.used = most;
-  return true;
 }
 
 }  // namespace copeel::cpu

@@ -14,6 +14,7 @@
 #include <span>
 
 #include "core/cpu/projection.h"
+#include "core/uninitialized.h"
 
 namespace copeel::cpu {
 
@@ -30,8 +31,8 @@ struct TriangleSetup {
   std::int32_t a[3], b[3], c[3];
   std::uint8_t x0, y0, x1, y1;      // bounds of covered samples, inclusive
   std::uint32_t slot;
+  std::uint32_t covered;            // EdgeBatch::covered
   std::uint16_t samples;            // about how many it covers
-  std::uint16_t covered;            // EdgeBatch::covered
   double da, db, dc, lo, hi;
 };
 
@@ -54,34 +55,59 @@ inline std::uint64_t keyAt(const TriangleSetup& t, int x, int y, KeyFormat forma
   return (bits << (64 - format.depthBits)) >> (64 - kKeyBits) | t.slot;
 }
 
-// All fragments of the pixels of a tile, block by block, layer by layer.
-class FragmentGrid {
- public:
-  struct Block {
-    std::unique_ptr<std::uint64_t[]> keys;     // [layer][64 pixels]; a grid's end in one more, which is read beside the last
-    std::uint32_t capacity = 0;                // layers
-    std::uint32_t used = 0;                    // layers that may be in use
-    std::uint32_t counts[kBlockPixels] = {};   // fragments per pixel
-  };
-
-  explicit FragmentGrid(std::size_t budgetBytes) : budgetBytes_(budgetBytes) {}
-
-  void clear();
-  // Makes room for one more layer; false when the budget is spent.
-  bool grow(Block& block);
-  Block& block(std::size_t index) { return blocks_[index]; }
-  const Block& block(std::size_t index) const { return blocks_[index]; }
-  void setBudget(std::size_t bytes) { budgetBytes_ = bytes; }
-
- private:
-  Block blocks_[kBlocksPerTile];
-  std::size_t budgetBytes_, usedBytes_ = 0;
-};
-
 // A range of blocks of a tile: [bx0, bx1) × [by0, by1).
 struct BlockRect {
   int bx0 = 0, by0 = 0, bx1 = kBlocksPerSide, by1 = kBlocksPerSide;
   int count() const { return (bx1 - bx0) * (by1 - by0); }
+};
+
+// The fragments of a block's pixels where they are kept.
+struct FragmentBlock {
+  std::uint64_t* keys;                       // of its first pixel; keys[layer · stride + pixel], and one more may be read after the last pixel
+  std::uint32_t* counts;                     // [64], fragments per pixel
+  std::uint32_t stride;                      // keys from one layer to the next
+
+  std::uint64_t* layer(std::size_t i) const { return keys + i * stride; }
+  bool empty() const {
+    std::uint32_t any = 0;
+    for (int p = 0; p < kBlockPixels; ++p) any |= counts[p];
+    return any == 0;
+  }
+};
+
+// All fragments of the pixels of a tile or of one block, layer by layer.
+class FragmentGrid {
+ public:
+  explicit FragmentGrid(std::size_t budgetBytes) : budgetBytes_(budgetBytes) {}
+
+  // Empties it, for a tile or a block, to which the budget does not apply.
+  void begin(const BlockRect& rect);
+  FragmentBlock block(int index) {
+    const std::uint32_t place = static_cast<std::uint32_t>(index) * kBlockPixels;
+    return {keys_.data() + (place - origin_), counts_ + place, stride_};
+  }
+  std::span<const std::uint32_t> counts() const { return counts_; }   // of all blocks; 0 outside what was begun
+
+  // Where fragments are added until there is no more room: that of the pixel at a place (kernels-inl.h) to keys[counts[place]++ · stride + place - origin].
+  struct Room {
+    std::uint64_t* keys;
+    std::uint32_t* counts;
+    std::uint32_t stride, origin;
+    std::size_t layers;                      // that may be added to every pixel; 0: the budget is spent
+  };
+  Room room(std::uint32_t used);             // layers in use
+
+ private:
+  // Layers of a tile lie so far apart that those of a pixel do not compete for the same lines of a cache.
+  static constexpr std::uint32_t kTileStride = kBlocksPerTile * kBlockPixels + 8;
+
+  bool grow(std::size_t layers);
+
+  UninitializedVector<std::uint64_t> keys_;  // kept from tile to tile
+  std::uint32_t counts_[kBlocksPerTile * kBlockPixels] = {};
+  std::uint32_t origin_ = 0, stride_ = kTileStride;
+  std::uint32_t capacity_ = 0;               // layers
+  std::size_t budgetBytes_, limitBytes_ = 0;
 };
 
 // Appends the fragments of the triangles to the grid; blocks with a bit in `finished` are passed over. False when the grid could not grow.
@@ -100,9 +126,12 @@ void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, 
 class NearestGrid {
  public:
   struct Block {
-    FragmentGrid::Block kept;
+    std::unique_ptr<std::uint64_t[]> keys;   // [k][64]
+    std::uint32_t counts[kBlockPixels];      // fragments kept
     std::uint32_t seen[kBlockPixels];   // fragments that came, kept or not
     std::uint64_t doubtful;             // pixels in which keys leave open whether what was lost is nearer than what was kept
+
+    FragmentBlock kept() { return {keys.get(), counts, kBlockPixels}; }
   };
 
   explicit NearestGrid(std::uint32_t k) : k_(k) {}

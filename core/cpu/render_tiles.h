@@ -118,7 +118,7 @@ class TileRenderer {
         const PixelStack stack = even_.stack(tile_);
         walker_.walk(stack, pixels.x, pixels.y);
         endAll(pixels);
-        count(stack.count, static_cast<std::uint64_t>(pixels.width) * pixels.height);
+        countFragments(std::vector<std::uint32_t>(static_cast<std::size_t>(pixels.width) * pixels.height, stack.count));
       }
     }
   }
@@ -152,19 +152,19 @@ class TileRenderer {
 
   void foldNearest(int bx, int by) {
     NearestGrid::Block& nearest = nearest_.block(by * kBlocksPerSide + bx);
-    FragmentGrid::Block& kept = nearest.kept;
+    const FragmentBlock kept = nearest.kept();
     for (int p = 0; p < kBlockPixels && !nearest.doubtful; ++p) {
-      for (std::uint32_t i = 0; i < kept.counts[p]; ++i) kept.keys[std::size_t{i} * kBlockPixels + p] ^= tile_.lastSlot();
+      for (std::uint32_t i = 0; i < kept.counts[p]; ++i) kept.layer(i)[p] ^= tile_.lastSlot();
       if (nearest.seen[p] > kept.counts[p] && endsOpen(kept, p)) nearest.doubtful = 1;
     }
     if (nearest.doubtful) return drawRect({bx, by, bx + 1, by + 1});
-    for (int p = 0; p < kBlockPixels; ++p) count(nearest.seen[p]);
+    countFragments(nearest.seen);
     foldBlock(kept, by * kBlocksPerSide + bx, kNoLimit);
   }
 
   // True where the last that was kept may in truth be nearer than one of another plane before it: then what was lost may be, too.
-  bool endsOpen(const FragmentGrid::Block& kept, int p) const {
-    const PixelStack stack{kept.keys.get() + p, kept.counts[p], kBlockPixels, tile_.format, tile_.slots.data()};
+  bool endsOpen(const FragmentBlock& kept, int p) const {
+    const PixelStack stack = stackOf(kept, p, tile_);
     const std::uint32_t last = stack.count - 1, planeClass = tile_.slots[stack.slot(last)].planeClass;
     const std::uint64_t depth = tile_.format.depthOf(stack.key(last));
     for (std::uint32_t i = last; i-- > 0 && tile_.format.depthOf(stack.key(i)) + 2 * tile_.format.uncertainty >= depth;) {
@@ -174,8 +174,7 @@ class TileRenderer {
   }
 
   void drawRect(const BlockRect& rect) {
-    grid_.clear();
-    grid_.setBudget(rect.count() == 1 ? ~std::size_t{0} : options_.gridBudgetBytes);
+    grid_.begin(rect);
     double layers = fold_.needsWholeStack() ? 0 : 2 + 2 * fold_.leastFragments();
     const bool batches = layers > 0 && !keepsNearest() && tile_.layers() > kBatchesFrom * layers;
     if (batches && tile_.nearest.empty()) tile_.orderByDepth();
@@ -188,35 +187,37 @@ class TileRenderer {
       if (foldRect(rect, last ? kNoLimit : tile_.nearest[end]) || last) break;
       begin = end;
     }
-    for (int b = 0; b < kBlocksPerTile; ++b) countFragments(b);
+    countFragments(grid_.counts());
   }
 
-  void countFragments(int b) {
-    if (grid_.block(b).used == 0) return;
-    for (std::uint32_t n : grid_.block(b).counts) count(n);
-  }
-
-  // The fragments of each of some pixels.
-  void count(std::uint32_t n, std::uint64_t pixels = 1) {
-    counts_.fragments += pixels * n;
-    counts_.captured += pixels * std::min(n, options_.nearest);
-    counts_.coveredPixels += n > 0 ? pixels : 0;
-    counts_.depthComplexityMax = std::max<std::uint64_t>(counts_.depthComplexityMax, n);
+  // Of pixels.
+  void countFragments(std::span<const std::uint32_t> counts) {
+    std::uint64_t fragments = 0, captured = 0;
+    std::uint32_t covered = 0, most = 0;
+    for (const std::uint32_t n : counts) {
+      fragments += n;
+      captured += std::min(n, options_.nearest);
+      covered += n > 0;
+      most = std::max(most, n);
+    }
+    counts_.fragments += fragments;
+    counts_.captured += captured;
+    counts_.coveredPixels += covered;
+    counts_.depthComplexityMax = std::max<std::uint64_t>(counts_.depthComplexityMax, most);
   }
 
   void split(const BlockRect& rect) {
     // What the grid could not take is drawn block by block; blocks and pixels that an earlier batch finished stay as they are.
     for (int b = 0; b < kBlocksPerTile; ++b) {
-      if (finished_ >> b & 1) countFragments(b);
+      if (finished_ >> b & 1) countFragments(grid_.counts().subspan(static_cast<std::size_t>(b) * kBlockPixels, kBlockPixels));
     }
-    grid_ = FragmentGrid(options_.gridBudgetBytes);
     for (int by = rect.by0; by < rect.by1; ++by) {
       for (int bx = rect.bx0; bx < rect.bx1; ++bx) {
         if (finished_ >> (by * kBlocksPerSide + bx) & 1) continue;
         drawRect({bx, by, bx + 1, by + 1});
-        grid_ = FragmentGrid(options_.gridBudgetBytes);
       }
     }
+    grid_ = FragmentGrid(options_.gridBudgetBytes);   // gives back what a block took beyond the budget
   }
 
   // True when every pixel of the rectangle has had enough.
@@ -227,7 +228,7 @@ class TileRenderer {
         const int b = by * kBlocksPerSide + bx;
         if (finished_ >> b & 1) continue;
         // A pixel that no fragment is left to meet shows nothing, and its fold is not asked.
-        const bool isEmpty = grid_.block(b).used == 0 && limit == kNoLimit;
+        const bool isEmpty = limit == kNoLimit && grid_.block(b).empty();
         if (isEmpty || foldBlock(narrowed(b), b, limit)) finished_ |= 1u << b;
         else all = false;
       }
@@ -236,15 +237,15 @@ class TileRenderer {
   }
 
   // What of a block's fragments is to be ordered.
-  FragmentGrid::Block& narrowed(int b) {
-    FragmentGrid::Block& all = grid_.block(b);
+  FragmentBlock narrowed(int b) {
+    const FragmentBlock all = grid_.block(b);
     if (!narrows_) return all;
     window_.take(fold_, tile_, all);
     return window_.block();
   }
 
   // Folds the pixels at once whose order the keys tell, if the fold knows how to.
-  void foldCertain(const FragmentGrid::Block& block, int b, int x, int y) {
+  void foldCertain(const FragmentBlock& block, int b, int x, int y) {
     if constexpr (requires { fold_.takesBlocks(); }) {
       if (!fold_.takesBlocks()) return;
       const BlockOrder order = orderOfBlock(block, tile_).without(done_[b]);
@@ -253,7 +254,7 @@ class TileRenderer {
     }
   }
 
-  bool foldBlock(FragmentGrid::Block& block, int b, std::uint64_t limit) {
+  bool foldBlock(const FragmentBlock& block, int b, std::uint64_t limit) {
     const auto [x, y, columns, rows] = pixelsOf(b);
     sortBlock(block);
     walker_.begin(tile_, limit);
@@ -265,8 +266,8 @@ class TileRenderer {
       for (int column = 0; column < columns; ++column) {
         const int p = row * kBlockSize + column;
         if ((done_[b] >> p & 1) || (block.counts[p] == 0 && limit == kNoLimit)) continue;
-        const PixelStack stack{block.keys.get() + p, block.counts[p], kBlockPixels, tile_.format, tile_.slots.data(),
-                               narrows_ ? window_.before(p) : std::span<const std::uint32_t>{}};
+        PixelStack stack = stackOf(block, p, tile_);
+        if (narrows_) stack.before = window_.before(p);
         if (walker_.walk(stack, x + column, y + row) == Walk::Finished) {
           if (alike && p == 0 && walker_.remembers()) {
             endAll({x, y, columns, rows});

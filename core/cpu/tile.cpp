@@ -132,7 +132,7 @@ inline TriangleSetup& Tile::addSetup(int at) {
   t.x0 = static_cast<std::uint8_t>(edges_.x0[at]), t.y0 = static_cast<std::uint8_t>(edges_.y0[at]);
   t.x1 = static_cast<std::uint8_t>(edges_.x1[at]), t.y1 = static_cast<std::uint8_t>(edges_.y1[at]);
   t.samples = static_cast<std::uint16_t>(edges_.samples[at]);
-  t.covered = static_cast<std::uint16_t>(edges_.covered[at]);
+  t.covered = static_cast<std::uint32_t>(edges_.covered[at]);
   t.slot = static_cast<std::uint32_t>(count_);
   return t;
 }

@@ -46,6 +46,10 @@ struct PixelStack {
   }
 };
 
+inline PixelStack stackOf(const cpu::FragmentBlock& block, int pixel, const cpu::Tile& tile) {
+  return {block.keys + pixel, block.counts[pixel], block.stride, tile.format, tile.slots.data()};
+}
+
 template <class F>
 concept Fold = requires(F fold, cpu::Tile& tile, std::span<const cpu::DepthRange> ranges, const PixelStack& stack, std::uint32_t slot,
                         const PixelRect& rect) {

@@ -16,8 +16,6 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using cpu::kBlockPixels;
-
 // Red, green, blue and what the fourth lane makes of alpha, in one vector or two.
 using Channels = hn::CappedTag<double, 4>;
 using Floats = hn::Rebind<float, Channels>;
@@ -57,9 +55,8 @@ HWY_INLINE HWY_ATTR void finishPixel(const State& state, const double* backgroun
 }
 
 HWY_INLINE HWY_ATTR void blendDistinct(const OverBlock& from, int pixel, State& state) {
-  const std::uint64_t* key = from.block.keys.get() + pixel;
-  const std::uint64_t* const end = key + std::size_t{from.block.counts[pixel]} * kBlockPixels;
-  for (; key != end; key += kBlockPixels) {
+  const std::uint64_t* key = from.block.keys + pixel;
+  for (std::uint32_t left = from.block.counts[pixel]; left > 0; --left, key += from.block.stride) {
     blendFragment(state, from.colors[from.format.slotOf(*key)]);
     if (from.mayEnd && state.transmittance == 0.0) return;
   }
@@ -67,15 +64,15 @@ HWY_INLINE HWY_ATTR void blendDistinct(const OverBlock& from, int pixel, State& 
 
 // Runs of equal depth are met from the last slot to the first. True: some had more than one fragment.
 HWY_INLINE HWY_ATTR bool blendRuns(const OverBlock& from, int pixel, State& state) {
-  const std::uint64_t* const keys = from.block.keys.get() + pixel;
+  const auto key = [&](std::uint32_t i) HWY_ATTR { return from.block.layer(i)[pixel]; };
   const std::uint32_t count = from.block.counts[pixel];
   bool coplanar = false;
   for (std::uint32_t begin = 0; begin < count;) {
-    const std::uint64_t depth = from.format.depthOf(keys[std::size_t{begin} * kBlockPixels]);
+    const std::uint64_t depth = from.format.depthOf(key(begin));
     std::uint32_t end = begin + 1;
-    while (end < count && from.format.depthOf(keys[std::size_t{end} * kBlockPixels]) == depth) ++end;
+    while (end < count && from.format.depthOf(key(end)) == depth) ++end;
     coplanar |= end - begin > 1;
-    for (std::uint32_t i = end; i-- > begin;) blendFragment(state, from.colors[from.format.slotOf(keys[std::size_t{i} * kBlockPixels])]);
+    for (std::uint32_t i = end; i-- > begin;) blendFragment(state, from.colors[from.format.slotOf(key(i))]);
     if (from.mayEnd && state.transmittance == 0.0) break;
     begin = end;
   }

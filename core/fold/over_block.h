@@ -18,7 +18,7 @@ struct BlendedPixel {
 };
 
 struct OverBlock {
-  const cpu::FragmentGrid::Block& block;
+  cpu::FragmentBlock block;
   cpu::KeyFormat format;
   const glm::vec4* colors;   // per slot, 0 … 255 and alpha
   glm::vec3 background;      // 0 … 255
