@@ -12,6 +12,7 @@ enum class Cover : std::uint8_t { None, Some, All };
 Cover coverOf(const TriangleSetup& t, const PixelRect& block) {
   const int right = block.x + block.width - 1, bottom = block.y + block.height - 1;
   if (t.x1 < block.x || t.x0 > right || t.y1 < block.y || t.y0 > bottom) return Cover::None;
+  if (t.covered) return Cover::Some;   // it has no edges, and is small
   // Edges that the triangle's bounds make redundant were dropped, so the bounds count.
   bool all = t.x0 <= block.x && t.x1 >= right && t.y0 <= block.y && t.y1 >= bottom;
   for (int i = 0; i < 3; ++i) {

@@ -93,13 +93,6 @@ HWY_INLINE HWY_ATTR void rowKeys(const TriangleSetup& t, int x, int y, KeyFormat
 // A triangle whose bounds hold no more samples than a block is taken sample by sample, whatever blocks it lies in.
 HWY_INLINE bool isSmall(const TriangleSetup& t) { return t.covered || (t.x1 - t.x0 + 1) * (t.y1 - t.y0 + 1) <= kBlockPixels; }
 
-// The blocks that the bounds touch, a bit for each.
-HWY_INLINE std::uint32_t touchedBlocks(const TriangleSetup& t) {
-  const int bx0 = t.x0 / kBlockSize, bx1 = t.x1 / kBlockSize, by0 = t.y0 / kBlockSize, by1 = t.y1 / kBlockSize;
-  const std::uint32_t row = ((2u << bx1) - (1u << bx0)) * 0x1111u;
-  return row & ((0x10u << (kBlocksPerSide * by1)) - (1u << (kBlocksPerSide * by0)));
-}
-
 HWY_INLINE std::uint32_t blocksOf(const BlockRect& rect) {
   std::uint32_t blocks = 0;
   for (int by = rect.by0; by < rect.by1; ++by) {
@@ -202,10 +195,14 @@ HWY_INLINE HWY_ATTR void collectInRoom(const TriangleSetup* triangles, std::size
     room.keys[std::size_t{layer} * room.stride + (place - room.origin)] = key;
     room.counts[place] = layer + 1;
   };
+  const auto addOpen = [add, closed](std::uint32_t place, std::uint64_t key) HWY_ATTR {
+    if (!(closed >> (place / kBlockPixels) & 1)) add(place, key);
+  };
   for (std::size_t i = 0; i < count; ++i) {
     const TriangleSetup& t = triangles[i];
-    if (isSmall(t) && (!closed || !(touchedBlocks(t) & closed))) {
-      forEachSample(t, format, add);
+    if (isSmall(t)) {
+      if (!closed) forEachSample(t, format, add);
+      else forEachSample(t, format, addOpen);
       continue;
     }
     forEachBlock(t, rect, closed, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
@@ -246,17 +243,15 @@ HWY_ATTR bool CollectFragments(const TriangleSetup* triangles, std::size_t count
   return true;
 }
 
-HWY_ATTR void CollectNearest(const TriangleSetup* triangles, std::size_t count, KeyFormat format, const BlockRect& rect,
-                             std::uint64_t* nearest) {
-  const std::uint32_t open = blocksOf(rect);
+HWY_ATTR void CollectNearest(const TriangleSetup* triangles, std::size_t count, KeyFormat format, std::uint64_t* nearest) {
   const auto keep = [&](std::uint32_t place, std::uint64_t key) HWY_ATTR { nearest[place] = std::min(nearest[place], key); };
   for (std::size_t i = 0; i < count; ++i) {
     const TriangleSetup& t = triangles[i];
-    if (isSmall(t) && !(touchedBlocks(t) & ~open)) {
+    if (isSmall(t)) {
       forEachSample(t, format, keep);
       continue;
     }
-    forEachBlock(t, rect, 0, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
+    forEachBlock(t, BlockRect{}, 0, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
       for (int row = __builtin_ctzll(covered) / kBlockSize; row < kBlockSize; ++row) {
         const std::uint32_t mask = covered >> (row * kBlockSize) & 0xFF;
         if (!mask) continue;
@@ -309,9 +304,8 @@ HWY_INLINE HWY_ATTR std::uint32_t mayBeKept(const std::uint64_t* keys, const std
   return mask;
 }
 
-HWY_ATTR void CollectKNearest(const TriangleSetup* triangles, std::size_t count, KeyFormat format, const BlockRect& rect, const KeyDoubt& doubt,
-                              NearestGrid& grid) {
-  const std::uint32_t open = blocksOf(rect), k = grid.k();
+HWY_ATTR void CollectKNearest(const TriangleSetup* triangles, std::size_t count, KeyFormat format, const KeyDoubt& doubt, NearestGrid& grid) {
+  const std::uint32_t k = grid.k();
   const std::size_t lastLayer = std::size_t{k - 1} * kBlockPixels;
   const auto keep = [&](std::uint32_t place, std::uint64_t key) HWY_ATTR {
     NearestGrid::Block& block = grid.block(place / kBlockPixels);
@@ -321,11 +315,11 @@ HWY_ATTR void CollectKNearest(const TriangleSetup* triangles, std::size_t count,
   };
   for (std::size_t i = 0; i < count; ++i) {
     const TriangleSetup& t = triangles[i];
-    if (isSmall(t) && !(touchedBlocks(t) & ~open)) {
+    if (isSmall(t)) {
       forEachSample(t, format, keep);
       continue;
     }
-    forEachBlock(t, rect, 0, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
+    forEachBlock(t, BlockRect{}, 0, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
       NearestGrid::Block& block = grid.block(index);
       for (int row = __builtin_ctzll(covered) / kBlockSize; row < kBlockSize; ++row) {
         std::uint32_t mask = covered >> (row * kBlockSize) & 0xFF;

@@ -27,12 +27,12 @@ bool collectFragments(std::span<const TriangleSetup> triangles, KeyFormat format
   return HWY_DYNAMIC_DISPATCH(CollectFragments)(triangles.data(), triangles.size(), format, rect, finished, grid);
 }
 
-void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint64_t* nearest) {
-  HWY_DYNAMIC_DISPATCH(CollectNearest)(triangles.data(), triangles.size(), format, rect, nearest);
+void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, std::uint64_t* nearest) {
+  HWY_DYNAMIC_DISPATCH(CollectNearest)(triangles.data(), triangles.size(), format, nearest);
 }
 
-void collectKNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, const KeyDoubt& doubt, NearestGrid& grid) {
-  HWY_DYNAMIC_DISPATCH(CollectKNearest)(triangles.data(), triangles.size(), format, rect, doubt, grid);
+void collectKNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const KeyDoubt& doubt, NearestGrid& grid) {
+  HWY_DYNAMIC_DISPATCH(CollectKNearest)(triangles.data(), triangles.size(), format, doubt, grid);
 }
 
 const char* simdInUse() { return HWY_DYNAMIC_DISPATCH(SimdName)(); }

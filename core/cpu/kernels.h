@@ -26,7 +26,7 @@ inline constexpr int kMostDepthBits = 48;
 inline constexpr std::uint64_t kEmptyKey = 0x7FE0000000000000ull;   // greater than every key (2^1023 as a double)
 
 // A triangle in a tile. Pixels count from the tile's upper left sample; e = a·x + b·y + c >= 0 on the inner side of an edge, with the
-// top-left rule folded into c; depth d = clamp(da·x + (db·y + dc), lo, hi) in key units plus 2^52.
+// top-left rule folded into c, where the samples are not known already (`covered`); depth d = clamp(da·x + (db·y + dc), lo, hi) in key units plus 2^52.
 struct TriangleSetup {
   std::int32_t a[3], b[3], c[3];
   std::uint8_t x0, y0, x1, y1;      // bounds of covered samples, inclusive
@@ -115,7 +115,7 @@ bool collectFragments(std::span<const TriangleSetup> triangles, KeyFormat format
                       FragmentGrid& grid);
 
 // The plain z-buffer: keeps the least key of each pixel, nearest[block][64], which the caller has filled with kEmptyKey.
-void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint64_t* nearest);
+void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, std::uint64_t* nearest);
 
 // The K nearest fragments of the pixels of a tile: a buffer of K keys a pixel, ascending. What a full buffer has no place for is counted.
 //
@@ -154,7 +154,7 @@ struct KeyDoubt {
   const TileSlot* slots;
 };
 
-void collectKNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, const KeyDoubt& doubt, NearestGrid& grid);
+void collectKNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const KeyDoubt& doubt, NearestGrid& grid);
 
 // Restricts the targets to those at most as wide as named: "best", "avx2", "sse4", "scalar". For tests; not to be called while drawing.
 void chooseSimd(const char* name);

@@ -29,7 +29,7 @@ void renderNearest(const Frame& frame, Visit visit) {
       tile.setUp(frame);
       tile.finish(std::numeric_limits<double>::infinity(), false);
       std::fill(local.nearest.begin(), local.nearest.end(), kEmptyKey);
-      collectNearest(tile.setups, tile.format, BlockRect{}, local.nearest.data());
+      collectNearest(tile.setups, tile.format, local.nearest.data());
       for (int b = 0; b < kBlocksPerTile; ++b) {
         const int x0 = b % kBlocksPerSide * kBlockSize, y0 = b / kBlocksPerSide * kBlockSize;
         for (int p = 0; p < kBlockPixels; ++p) {

@@ -143,7 +143,7 @@ class TileRenderer {
     const double layers = tile_.layers();
     if (layers > 2.0 * options_.nearest && layers * tile_.width * tile_.height > kSamplesToOrder * static_cast<double>(tile_.setups.size())) tile_.orderByDepth();
     tile_.flipSlots();
-    collectKNearest(tile_.setups, tile_.format, rect, doubt, nearest_);
+    collectKNearest(tile_.setups, tile_.format, doubt, nearest_);
     tile_.flipSlots();
     for (int by = rect.by0; by < rect.by1; ++by) {
       for (int bx = rect.bx0; bx < rect.bx1; ++bx) foldNearest(bx, by);

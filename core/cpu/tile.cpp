@@ -128,7 +128,9 @@ void Tile::setUpBatch(const Frame& frame, int count) {
 
 inline TriangleSetup& Tile::addSetup(int at) {
   TriangleSetup& t = setupRoom_[count_];
-  for (int k = 0; k < 3; ++k) t.a[k] = edges_.a[k][at], t.b[k] = edges_.b[k][at], t.c[k] = edges_.c[k][at];
+  if (!edges_.covered[at]) {
+    for (int k = 0; k < 3; ++k) t.a[k] = edges_.a[k][at], t.b[k] = edges_.b[k][at], t.c[k] = edges_.c[k][at];
+  }
   t.x0 = static_cast<std::uint8_t>(edges_.x0[at]), t.y0 = static_cast<std::uint8_t>(edges_.y0[at]);
   t.x1 = static_cast<std::uint8_t>(edges_.x1[at]), t.y1 = static_cast<std::uint8_t>(edges_.y1[at]);
   t.samples = static_cast<std::uint16_t>(edges_.samples[at]);
@@ -164,7 +166,7 @@ void Tile::rangesOfBlocks(std::vector<DepthRange>& ranges) const {
         const int x = bx * kBlockSize, y = by * kBlockSize;
         // An edge with the whole block on its outer side keeps the triangle out.
         bool outside = false;
-        for (int i = 0; i < 3; ++i) {
+        for (int i = 0; i < 3 && !t.covered; ++i) {
           outside |= t.a[i] * (t.a[i] > 0 ? x + kLast : x) + t.b[i] * (t.b[i] > 0 ? y + kLast : y) + t.c[i] < 0;
         }
         if (outside) continue;
