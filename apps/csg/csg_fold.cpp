@@ -97,6 +97,7 @@ cpu::DepthRange CsgFold::window(const PixelStack& stack) {
 double CsgFold::narrowTile(cpu::Tile& tile) {
   if (eye_.any) return kFar;
   windows_ = initialWindows_;
+  tile.findRanges();
   for (std::uint32_t leaf = 0; leaf < tile.objects.size(); ++leaf) {
     if (!tile.objects[leaf].range.empty()) feedUses(leaf, windowOf(leaf, tile.objects[leaf].range));
   }

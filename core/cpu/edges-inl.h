@@ -6,6 +6,9 @@
 #define COPEEL_EDGES_INL_H_
 #endif
 
+#include <cstddef>
+#include <limits>
+
 #include <hwy/highway.h>
 
 #include "core/cpu/edges.h"
@@ -105,7 +108,8 @@ HWY_INLINE HWY_ATTR void addRow(EdgeWalk u, EdgeWalk v, EdgeWalk w, hn::Vec<Samp
   addSample<8 * kRow + 3>(u, v, w, outside);
 }
 
-HWY_INLINE HWY_ATTR void coverLanes(EdgeBatch& batch, int i) {
+// Of the 4×4 samples from each triangle's first one on: bit x + 8·y.
+HWY_INLINE HWY_ATTR hn::Vec<Samples> coveredSamples(const EdgeBatch& batch, int i) {
   const Samples d;
   EdgeWalk u(batch, 0, i), v(batch, 1, i), w(batch, 2, i);
   auto outside = hn::Zero(d);
@@ -117,25 +121,53 @@ HWY_INLINE HWY_ATTR void coverLanes(EdgeBatch& batch, int i) {
   addRow<2>(u, v, w, outside);
   down(u), down(v), down(w);
   addRow<3>(u, v, w, outside);
-  hn::Store(hn::Not(outside), d, batch.covered + i);
+  return hn::Not(outside);
 }
 
-// Bits of 4×4 samples of which some columns or rows are within bounds.
-inline constexpr std::uint32_t kColumns[] = {0, 0x01010101, 0x03030303, 0x07070707, 0x0F0F0F0F}, kRows[] = {0, 0xF, 0xF0F, 0xF0F0F, 0xF0F0F0F};
-
 // What small triangles cover. One that covers nothing is no triangle.
-HWY_INLINE HWY_ATTR void coverSmall(EdgeBatch& batch, int count) {
-  for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(Samples()))) coverLanes(batch, i);
-  for (int i = 0; i < count; ++i) {
-    const int width = batch.x1[i] - batch.x0[i] + 1, height = batch.y1[i] - batch.y0[i] + 1;
-    if (batch.side[i] == 0 || width > 4 || height > 4) {
-      batch.covered[i] = 0;
-      continue;
-    }
-    batch.covered[i] &= static_cast<std::int32_t>(kColumns[width] & kRows[height]);
-    batch.samples[i] = __builtin_popcount(static_cast<unsigned>(batch.covered[i]));
-    if (batch.covered[i] == 0) batch.side[i] = 0;
-  }
+HWY_INLINE HWY_ATTR void coverSmall(EdgeBatch& batch, int i) {
+  const Samples d;
+  const hn::RebindToUnsigned<Samples> bits;
+  const auto one = hn::Set(d, 1), four = hn::Set(d, 4), side = hn::Load(d, batch.side + i);
+  const auto width = hn::Add(hn::Sub(hn::Load(d, batch.x1 + i), hn::Load(d, batch.x0 + i)), one);
+  const auto height = hn::Add(hn::Sub(hn::Load(d, batch.y1 + i), hn::Load(d, batch.y0 + i)), one);
+  const auto small = hn::And(hn::Ne(side, hn::Zero(d)), hn::Not(hn::Gt(hn::Max(width, height), four)));
+  // Bits of the columns and rows that are within bounds.
+  const auto columns = hn::Mul(hn::Sub(hn::Shl(one, hn::Min(hn::Max(width, one), four)), one), hn::Set(d, 0x01010101));
+  const auto missing = hn::Sub(four, hn::Min(hn::Max(height, one), four));
+  const auto rows = hn::BitCast(d, hn::Shr(hn::Set(bits, 0x0F0F0F0Fu), hn::BitCast(bits, hn::ShiftLeft<3>(missing))));
+  const auto covered = hn::IfThenElseZero(small, hn::And(hn::And(coveredSamples(batch, i), columns), rows));
+  hn::Store(covered, d, batch.covered + i);
+  hn::Store(hn::IfThenZeroElse(hn::And(small, hn::Eq(covered, hn::Zero(d))), side), d, batch.side + i);
+  const auto count = hn::BitCast(d, hn::PopulationCount(hn::BitCast(bits, covered)));
+  hn::Store(hn::IfThenElse(small, count, hn::Load(d, batch.samples + i)), d, batch.samples + i);
+}
+
+// Depths that the planes reach within the bounds.
+HWY_INLINE HWY_ATTR void setUpDepths(EdgeBatch& batch, int i, const Bounds& bounds, const TileFrame& tile) {
+  const Exact d;
+  const hn::Rebind<float, Exact> f;
+  const Lanes a = hn::Load(d, batch.planeA + i), b = hn::Load(d, batch.planeB + i), c = hn::Load(d, batch.planeC + i);
+  const Lanes lo = hn::PromoteTo(d, hn::Load(f, batch.planeLo + i)), hi = hn::PromoteTo(d, hn::Load(f, batch.planeHi + i));
+  const Lanes dc = hn::Add(hn::Mul(a, hn::Set(d, tile.u)), hn::Add(hn::Mul(b, hn::Set(d, tile.v)), c));
+  const Lanes left = hn::Mul(a, bounds.x0), right = hn::Mul(a, bounds.x1), top = hn::Mul(b, bounds.y0), bottom = hn::Mul(b, bounds.y1);
+  const auto clamped = [&](Lanes depth) HWY_ATTR { return hn::Min(hn::Max(depth, lo), hi); };
+  hn::Store(dc, d, batch.dc + i);
+  hn::Store(lo, d, batch.lo + i);
+  hn::Store(hi, d, batch.hi + i);
+  hn::Store(clamped(hn::Add(hn::Add(dc, hn::Min(left, right)), hn::Min(top, bottom))), d, batch.least + i);
+  hn::Store(clamped(hn::Add(hn::Add(dc, hn::Max(left, right)), hn::Max(top, bottom))), d, batch.most + i);
+  hn::Store(hn::PromoteTo(d, hn::Load(f, batch.planeError + i)), d, batch.error + i);
+}
+
+HWY_INLINE HWY_ATTR void storeBounds(EdgeBatch& batch, int i, const Bounds& bounds) {
+  const Whole whole;
+  const auto x0 = hn::DemoteTo(whole, bounds.x0), y0 = hn::DemoteTo(whole, bounds.y0), x1 = hn::DemoteTo(whole, bounds.x1), y1 = hn::DemoteTo(whole, bounds.y1);
+  hn::Store(x0, whole, batch.x0 + i);
+  hn::Store(y0, whole, batch.y0 + i);
+  hn::Store(x1, whole, batch.x1 + i);
+  hn::Store(y1, whole, batch.y1 + i);
+  hn::Store(hn::Or(hn::Or(x0, hn::ShiftLeft<8>(y0)), hn::Or(hn::ShiftLeft<16>(x1), hn::ShiftLeft<24>(y1))), whole, batch.bounds + i);
 }
 
 HWY_ATTR void SetUpEdges(EdgeBatch& batch, int count, const TileFrame& tile) {
@@ -147,10 +179,8 @@ HWY_ATTR void SetUpEdges(EdgeBatch& batch, int count, const TileFrame& tile) {
     const Corner p = corner(batch.px + i, batch.py + i), second = corner(batch.qx + i, batch.qy + i), third = corner(batch.rx + i, batch.ry + i);
     const Lanes area = hn::Sub(hn::Mul(hn::Sub(second.x, p.x), hn::Sub(third.y, p.y)), hn::Mul(hn::Sub(second.y, p.y), hn::Sub(third.x, p.x)));
     const Bounds bounds = boundsOf(p, second, third, tile);
-    hn::Store(hn::DemoteTo(whole, bounds.x0), whole, batch.x0 + i);
-    hn::Store(hn::DemoteTo(whole, bounds.y0), whole, batch.y0 + i);
-    hn::Store(hn::DemoteTo(whole, bounds.x1), whole, batch.x1 + i);
-    hn::Store(hn::DemoteTo(whole, bounds.y1), whole, batch.y1 + i);
+    storeBounds(batch, i, bounds);
+    setUpDepths(batch, i, bounds, tile);
 
     // Its area, but no more than half of the bounds.
     const Lanes half = hn::Set(d, 0.5), one = hn::Set(d, 1);
@@ -170,7 +200,25 @@ HWY_ATTR void SetUpEdges(EdgeBatch& batch, int count, const TileFrame& tile) {
     const Lanes side = hn::IfThenElse(front, one, hn::Neg(one));
     hn::Store(hn::DemoteTo(whole, hn::IfThenElseZero(hn::And(hn::And(holds, pq), hn::And(qr, rp)), side)), whole, batch.side + i);
   }
-  coverSmall(batch, count);
+  for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(Samples()))) coverSmall(batch, i);
+}
+
+HWY_ATTR void ScaleDepths(std::span<TriangleSetup> setups, const DepthScale& scale) {
+  // da, db, dc and lo go through the same steps; hi has the other bound.
+  static_assert(offsetof(TriangleSetup, lo) == offsetof(TriangleSetup, da) + 3 * sizeof(double));
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  const hn::CappedTag<double, 4> d;
+  alignas(32) const double least[] = {0, 0, scale.least, scale.least}, bound[] = {kNone, kNone, kNone, -scale.margin}, shift[] = {0, 0, scale.shift, scale.shift};
+  const auto factor = hn::Set(d, scale.scale);
+  for (TriangleSetup& t : setups) {
+    double* const depth = &t.da;
+    for (std::size_t k = 0; k < 4; k += hn::Lanes(d)) {
+      const auto scaled = hn::Mul(hn::Sub(hn::LoadU(d, depth + k), hn::Load(d, least + k)), factor);
+      hn::StoreU(hn::Add(hn::Max(scaled, hn::Load(d, bound + k)), hn::Load(d, shift + k)), d, depth + k);
+    }
+    const double hi = (t.hi - scale.least) * scale.scale;
+    t.hi = (hi < scale.top ? hi : scale.top) + scale.shift;
+  }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,11 +1,14 @@
-// Triangles of a tile on their way from corners to edge functions, in batches, vectorised across triangles with run-time dispatch.
+// Triangles of a tile on their way from corners and planes to edge and depth functions, in batches, vectorised across triangles with run-time dispatch.
 //
-// Everything is exact: corners differ by less than 2^24 grid steps, so products stay below 2^48 and sums below 2^51, which a double holds to
+// Edges are exact: corners differ by less than 2^24 grid steps, so products stay below 2^48 and sums below 2^51, which a double holds to
 // the last unit, as it does their division by a power of two. Every target therefore gives the same integers. Edges are Pineda's. A parallel
 // algorithm for polygon rasterization. SIGGRAPH 1988.
 #pragma once
 
 #include <cstdint>
+#include <span>
+
+#include "core/cpu/kernels.h"
 
 namespace copeel::cpu {
 
@@ -14,24 +17,36 @@ inline constexpr int kEdgeBatch = 32;   // triangles; a multiple of every target
 struct EdgeBatch {
   // In: corners, grid coordinates.
   alignas(64) std::int32_t px[kEdgeBatch] = {}, py[kEdgeBatch] = {}, qx[kEdgeBatch] = {}, qy[kEdgeBatch] = {}, rx[kEdgeBatch] = {}, ry[kEdgeBatch] = {};
+  // In: the DepthPlane of each (core/coplanarity/depth_planes.h).
+  alignas(64) double planeA[kEdgeBatch] = {}, planeB[kEdgeBatch] = {}, planeC[kEdgeBatch] = {};
+  alignas(64) float planeLo[kEdgeBatch] = {}, planeHi[kEdgeBatch] = {}, planeError[kEdgeBatch] = {};
   // Out: +1 front-facing (clockwise with y down), -1 back-facing, 0 where no sample of the tile can be covered. Then the rest is undefined.
   alignas(64) std::int32_t side[kEdgeBatch];
-  // Out: samples that the bounds leave within the tile, inclusive, from its upper left one.
-  alignas(64) std::int32_t x0[kEdgeBatch], y0[kEdgeBatch], x1[kEdgeBatch], y1[kEdgeBatch];
+  // Out: samples that the bounds leave within the tile, inclusive, from its upper left one; the four in one, x0 the lowest byte.
+  alignas(64) std::int32_t x0[kEdgeBatch], y0[kEdgeBatch], x1[kEdgeBatch], y1[kEdgeBatch], bounds[kEdgeBatch];
   // Out: about how many samples of the tile it covers.
   alignas(64) std::int32_t samples[kEdgeBatch];
   // Out: where the bounds hold 4×4 samples at most: bit x + 8·y is set where sample (x0 + x, y0 + y) is covered. 0: larger bounds.
   alignas(64) std::int32_t covered[kEdgeBatch];
   // Out: edge i is a·x + b·y + c >= 0 on the inner side (TriangleSetup); all zero for an edge that holds all of the bounds on its inner side.
   alignas(64) std::int32_t a[3][kEdgeBatch], b[3][kEdgeBatch], c[3][kEdgeBatch];
+  // Out: the order value is clamp(planeA·x + planeB·y + dc, lo, hi) at sample (x, y); what it can be within the bounds.
+  alignas(64) double dc[kEdgeBatch], lo[kEdgeBatch], hi[kEdgeBatch], least[kEdgeBatch], most[kEdgeBatch], error[kEdgeBatch];
 };
 
 struct TileFrame {
   int x0, y0, width, height;   // pixels
   int bits;                    // sub-pixel bits of the grid
+  double u = 0, v = 0;         // of the first sample, in the planes' coordinates
 };
 
 // Sets up the first `count` triangles of a batch.
 void setUpEdges(EdgeBatch& batch, int count, const TileFrame& tile);
+
+// Order value s becomes (s - least) · scale + shift; within the range of the keys, [-margin, top] before the shift.
+struct DepthScale {
+  double least, scale, margin, top, shift;
+};
+void scaleDepths(std::span<TriangleSetup> setups, const DepthScale& scale);
 
 }  // namespace copeel::cpu

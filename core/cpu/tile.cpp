@@ -72,13 +72,13 @@ void Tile::setUp(const Frame& frame) {
   samples_ = 0;
   depths_ = {};
   leastError_ = std::numeric_limits<double>::infinity();
+  mostError_ = 0;
   int count = 0;
   for (std::uint32_t i = 0; i < objects.size(); ++i) {
     TileObject& object = objects[i];
     if (!object.keep) continue;
-    object.range = {};
-    object.mirrored = mirrors(frame.scene.objects()[object.object].worldFromObject);
-    const Source source{i, frame.scene.firstPrimitive(object.object), frame.scene.objects()[object.object].mesh.get(),
+    const std::int32_t turn = mirrors(frame.scene.objects()[object.object].worldFromObject) ? -1 : 1;
+    const Source source{i, turn, frame.scene.firstPrimitive(object.object), frame.scene.objects()[object.object].mesh.get(),
                         frame.projection.vertices.data() + frame.projection.firstVertex[object.object], frame.planes.classesOfObject(object.object)};
     // Batches run on from object to object.
     for (std::uint32_t k = object.firstReference; k < object.lastReference; ++k) {
@@ -108,49 +108,53 @@ inline void Tile::gather(const Frame& frame, const Source& source, std::uint32_t
   // The class's plane is wanted soon, and rarely lies near the last one.
   const std::uint32_t planeClass = source.classes[source.mesh->facetOf(triangle)];
   __builtin_prefetch(&frame.depths[planeClass]);
-  gathered_[at] = {source.index, source.firstPrimitive + triangle, planeClass};
+  gathered_[at] = {source.firstPrimitive + triangle, planeClass, source.index, source.turn, 0};
 }
 
 void Tile::setUpBatch(const Frame& frame, int count) {
-  setUpEdges(edges_, count, {x0, y0, width, height, frame.projection.grid.bits});
+  for (int i = 0; i < count; ++i) {
+    const DepthPlane& plane = frame.depths[gathered_[i].planeClass];
+    edges_.planeA[i] = plane.a, edges_.planeB[i] = plane.b, edges_.planeC[i] = plane.c;
+    edges_.planeLo[i] = plane.lo, edges_.planeHi[i] = plane.hi, edges_.planeError[i] = plane.error;
+  }
   // The tile's first sample, in the depth planes' coordinates.
   const double u = x0 + 0.5 + frame.view.offset.x - frame.view.width * 0.5;
   const double v = y0 + 0.5 + frame.view.offset.y - frame.view.height * 0.5;
+  setUpEdges(edges_, count, {x0, y0, width, height, frame.projection.grid.bits, u, v});
   for (int i = 0; i < count; ++i) {
     if (edges_.side[i] == 0) continue;
-    const Gathered& from = gathered_[i];
-    TileObject& object = objects[from.object];
-    addDepth(addSetup(i), frame.depths[from.planeClass], u, v, object);
-    const std::int32_t side = object.mirrored ? -edges_.side[i] : edges_.side[i];
-    slotRoom_[count_++] = {from.primitive, from.planeClass, from.object, side, 0};
+    addSetup(i);
+    TileSlot& slot = slotRoom_[count_++] = gathered_[i];
+    slot.side *= edges_.side[i];
   }
 }
 
-inline TriangleSetup& Tile::addSetup(int at) {
+// Its depth in order values yet.
+inline void Tile::addSetup(int at) {
   TriangleSetup& t = setupRoom_[count_];
   if (!edges_.covered[at]) {
     for (int k = 0; k < 3; ++k) t.a[k] = edges_.a[k][at], t.b[k] = edges_.b[k][at], t.c[k] = edges_.c[k][at];
   }
-  t.x0 = static_cast<std::uint8_t>(edges_.x0[at]), t.y0 = static_cast<std::uint8_t>(edges_.y0[at]);
-  t.x1 = static_cast<std::uint8_t>(edges_.x1[at]), t.y1 = static_cast<std::uint8_t>(edges_.y1[at]);
-  t.samples = static_cast<std::uint16_t>(edges_.samples[at]);
-  t.covered = static_cast<std::uint32_t>(edges_.covered[at]);
+  const auto bounds = static_cast<std::uint32_t>(edges_.bounds[at]);
+  t.x0 = static_cast<std::uint8_t>(bounds), t.y0 = static_cast<std::uint8_t>(bounds >> 8);
+  t.x1 = static_cast<std::uint8_t>(bounds >> 16), t.y1 = static_cast<std::uint8_t>(bounds >> 24);
   t.slot = static_cast<std::uint32_t>(count_);
-  return t;
+  t.covered = static_cast<std::uint32_t>(edges_.covered[at]);
+  t.samples = static_cast<std::uint16_t>(edges_.samples[at]);
+  t.da = edges_.planeA[at], t.db = edges_.planeB[at], t.dc = edges_.dc[at], t.lo = edges_.lo[at], t.hi = edges_.hi[at];
+  const SetupRange range = ranges_[count_] = {edges_.least[at], edges_.most[at], edges_.error[at]};
+  leastError_ = std::min(leastError_, range.error);
+  mostError_ = std::max(mostError_, range.error);
+  depths_.add(range.least, range.most);
+  samples_ += t.samples;
 }
 
-// Its depth, in order values yet.
-inline void Tile::addDepth(TriangleSetup& t, const DepthPlane& plane, double u, double v, TileObject& object) {
-  const double dc = plane.a * u + (plane.b * v + plane.c), lo = plane.lo, hi = plane.hi, error = plane.error;
-  t.da = plane.a, t.db = plane.b, t.dc = dc, t.lo = lo, t.hi = hi;
-  const double left = plane.a * t.x0, right = plane.a * t.x1, top = plane.b * t.y0, bottom = plane.b * t.y1;
-  const double least = std::clamp(dc + std::min(left, right) + std::min(top, bottom), lo, hi);
-  const double most = std::clamp(dc + std::max(left, right) + std::max(top, bottom), lo, hi);
-  ranges_[count_] = {least, most, error};
-  object.range.add(least - error, most + error);
-  leastError_ = std::min(leastError_, error);
-  depths_.add(least, most);
-  samples_ += t.samples;
+void Tile::findRanges() {
+  for (TileObject& object : objects) object.range = {};
+  for (std::size_t i = 0; i < setups.size(); ++i) {
+    const SetupRange& range = ranges_[i];
+    objects[slots[setups[i].slot].object].range.add(range.least - range.error, range.most + range.error);
+  }
 }
 
 void Tile::rangesOfBlocks(std::vector<DepthRange>& ranges) const {
@@ -191,11 +195,13 @@ void Tile::drop(double farthest) {
   std::size_t kept = 0;
   depths_ = {};
   samples_ = 0;
+  mostError_ = 0;
   for (std::size_t i = 0; i < setups.size(); ++i) {
     const SetupRange& range = ranges_[i];
     if (!objects[slots[setups[i].slot].object].keep || range.least > farthest) continue;
     depths_.add(range.least, range.most);
     samples_ += setups[i].samples;
+    mostError_ = std::max(mostError_, range.error);
     if (kept < i) setups[kept] = setups[i], ranges_[kept] = range;
     ++kept;
   }
@@ -211,24 +217,15 @@ void Tile::scaleDepths(bool decideAllExactly) {
   // A range so small that rounding would fill thousands of key units gains nothing from a larger scale.
   const double limit = std::clamp(kFinestError / leastError_, 1e-200, 1e200);
   const double scale = std::min(range > 0 ? (units - 2 * margin) / range : 1.0, limit);
-  const double shift = kBias + margin;
+  cpu::scaleDepths(setups, {least, scale, margin, units - 2 * margin, kBias + margin});
   // One bound for all but the coarse: then a gap between neighbours in sorted order parts everything before from everything after.
-  double common = 0;
-  coarse = false;
-  for (std::size_t i = 0; i < setups.size(); ++i) {
-    TriangleSetup& t = setups[i];
-    t.da *= scale;
-    t.db *= scale;
-    t.dc = (t.dc - least) * scale + shift;
-    t.lo = std::max((t.lo - least) * scale, -margin) + shift;
-    t.hi = std::min((t.hi - least) * scale, units - 2 * margin) + shift;
-    const double error = ranges_[i].error * scale * 1.25 + kKeyRounding;
-    if (error <= double{kCoarse} && !decideAllExactly) {
-      common = std::max(common, error);
-    } else {
-      coarse = true;
-      slots[t.slot].coarseBound = decideAllExactly ? kMostUncertainty : roundedUp(std::min(error, double{kMostUncertainty}));
-    }
+  const auto inUnits = [scale](double error) { return error * scale * 1.25 + kKeyRounding; };
+  coarse = decideAllExactly || inUnits(mostError_) > double{kCoarse};
+  double common = coarse ? 0 : inUnits(mostError_);
+  for (std::size_t i = 0; coarse && i < setups.size(); ++i) {
+    const double error = inUnits(ranges_[i].error);
+    if (error <= double{kCoarse} && !decideAllExactly) common = std::max(common, error);
+    else slots[setups[i].slot].coarseBound = decideAllExactly ? kMostUncertainty : roundedUp(std::min(error, double{kMostUncertainty}));
   }
   format.uncertainty = roundedUp(common);
 }

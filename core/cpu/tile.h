@@ -33,8 +33,7 @@ struct TileObject {
   std::uint32_t object;                     // of the scene
   std::uint32_t firstReference, lastReference;
   bool keep = true;                         // cleared by a fold that has no use for the object in this tile
-  bool mirrored = false;                    // after setUp: its faces are turned inside out
-  DepthRange range{};                       // after setUp: in the tile
+  DepthRange range{};                       // after findRanges: in the tile
 };
 
 inline constexpr std::uint64_t kCoarse = 4096;   // key units; up to it, all slots of a tile carry one common bound (KeyFormat)
@@ -46,8 +45,10 @@ class Tile {
 
   // Finds the objects that touch a tile. O(references).
   void begin(const Frame& frame, int index);
-  // Sets the triangles of the kept objects up, and finds their depths.
+  // Sets the triangles of the kept objects up.
   void setUp(const Frame& frame);
+  // The depths of each object, for folds that ask. After setUp.
+  void findRanges();
   // The same in each block, [block][object]; blocks that a triangle just passes by may count as touched. After setUp, before finish.
   void rangesOfBlocks(std::vector<DepthRange>& ranges) const;
   // Drops the triangles of objects that are no longer kept and those wholly beyond `farthest`; scales depths to keys.
@@ -73,6 +74,7 @@ class Tile {
   // Of an object.
   struct Source {
     std::uint32_t index;                    // into objects
+    std::int32_t turn;                      // -1: mirrored, its faces are turned inside out
     std::uint32_t firstPrimitive;
     const Mesh* mesh;
     const glm::ivec2* vertices;             // on the grid
@@ -80,18 +82,13 @@ class Tile {
   };
   void gather(const Frame& frame, const Source& source, std::uint32_t reference, int at);
   void setUpBatch(const Frame& frame, int count);
-  TriangleSetup& addSetup(int at);
-  void addDepth(TriangleSetup& setup, const DepthPlane& plane, double u, double v, TileObject& object);
+  void addSetup(int at);
   void drop(double farthest);
   void scaleDepths(bool decideAllExactly);
 
   std::span<const std::uint32_t> references_;
-  struct Gathered {
-    std::uint32_t object;                   // index into objects
-    std::uint32_t primitive, planeClass;
-  };
   EdgeBatch edges_;
-  Gathered gathered_[kEdgeBatch];
+  TileSlot gathered_[kEdgeBatch];           // of the batch; side: the object's turn
   struct SetupRange {
     double least, most, error;              // the bounds without the error
   };
@@ -102,7 +99,7 @@ class Tile {
   std::size_t count_ = 0;
   std::int64_t samples_ = 0;                // of all setups
   DepthRange depths_;                       // of all setups, without the error
-  double leastError_ = 0;                   // of all slots
+  double leastError_ = 0, mostError_ = 0;   // of all slots, of all setups
   std::vector<std::uint64_t> order_;        // of orderByDepth, kept for their memory
 };
 
