@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/cpu/single_tile.h"
 #include "core/parallel.h"
 
 namespace copeel::cpu {
@@ -42,7 +43,7 @@ class Binner {
   Binner(const View& view, int bits, int columns, std::vector<Entry>& entries)
       : bits_(bits), width_(view.width), height_(view.height), columns_(columns), entries_(entries) {}
 
-  inline __attribute__((always_inline)) void add(const glm::ivec2& p, const glm::ivec2& q, const glm::ivec2& r, std::uint32_t reference) {
+  void add(const glm::ivec2& p, const glm::ivec2& q, const glm::ivec2& r, std::uint32_t reference) {
     // Samples have whole-pixel coordinates: the first at or after the smallest corner, the last at or before the largest.
     const int round = (1 << bits_) - 1;
     const int x0 = std::max((std::min(std::min(p.x, q.x), r.x) + round) >> bits_, 0);
@@ -92,26 +93,36 @@ class Binner {
 void binChunk(const Scene& scene, const View& view, const Projection& projection, const Chunk& chunk, int columns, ChunkBins& out) {
   Binner binner(view, projection.grid.bits, columns, out.entries);
   std::uint32_t object = chunk.firstObject, triangle = chunk.firstTriangle, left = chunk.count;
+  const TileGrid grid{projection.grid.bits, view.width, view.height, columns};
+  CornerBatch batch;
   std::vector<ClippedTriangle> pieces;
+  const auto binOne = [&](std::uint32_t primitive, const glm::ivec2& p, const glm::ivec2& q, const glm::ivec2& r, std::uint32_t of) {
+    if (p.x != kOffGrid && q.x != kOffGrid && r.x != kOffGrid) return binner.add(p, q, r, primitive);
+    pieces.clear();
+    clipTriangle(scene, view, projection.grid, of, primitive, pieces);
+    for (const ClippedTriangle& piece : pieces) {
+      // The reference is relative to the chunk until the chunks are joined.
+      binner.add(piece.corners[0], piece.corners[1], piece.corners[2], kPrimitiveLimit + static_cast<std::uint32_t>(out.clipped.size()));
+      out.clipped.push_back(piece);
+    }
+  };
   for (; left > 0; ++object, triangle = 0) {
     const Mesh& mesh = *scene.objects()[object].mesh;
     const glm::ivec2* vertices = projection.vertices.data() + projection.firstVertex[object];
     const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(mesh.triangles.size(), std::size_t{triangle} + left));
     left -= end - triangle;
-    const std::uint32_t base = scene.firstPrimitive(object);
-    for (; triangle < end; ++triangle) {
-      const glm::uvec3 t = mesh.triangles[triangle];
-      const glm::ivec2 &p = vertices[t.x], &q = vertices[t.y], &r = vertices[t.z];
-      if (p.x != kOffGrid && q.x != kOffGrid && r.x != kOffGrid) {
-        binner.add(p, q, r, base + triangle);
-        continue;
+    for (; triangle < end; triangle += CornerBatch::kSize) {
+      const std::size_t count = std::min<std::size_t>(CornerBatch::kSize, end - triangle);
+      const glm::uvec3* const triangles = mesh.triangles.data() + triangle;
+      for (std::size_t i = 0; i < count; ++i) {
+        const glm::ivec2 p = vertices[triangles[i].x], q = vertices[triangles[i].y], r = vertices[triangles[i].z];
+        batch.px[i] = p.x, batch.py[i] = p.y, batch.qx[i] = q.x, batch.qy[i] = q.y, batch.rx[i] = r.x, batch.ry[i] = r.y;
       }
-      pieces.clear();
-      clipTriangle(scene, view, projection.grid, object, base + triangle, pieces);
-      for (const ClippedTriangle& piece : pieces) {
-        // The reference is relative to the chunk until the chunks are joined.
-        binner.add(piece.corners[0], piece.corners[1], piece.corners[2], kPrimitiveLimit + static_cast<std::uint32_t>(out.clipped.size()));
-        out.clipped.push_back(piece);
+      findSingleTiles(batch, count, grid);
+      const std::uint32_t first = scene.firstPrimitive(object) + triangle;
+      for (std::uint32_t i = 0; i < count; ++i) {
+        if (batch.tile[i] >= 0) out.entries.push_back({static_cast<std::uint32_t>(batch.tile[i]), first + i});
+        else if (batch.tile[i] == kManyTiles) binOne(first + i, {batch.px[i], batch.py[i]}, {batch.qx[i], batch.qy[i]}, {batch.rx[i], batch.ry[i]}, object);
       }
     }
   }
