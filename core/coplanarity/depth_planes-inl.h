@@ -23,18 +23,16 @@ struct DepthView {
 // What is read of eight classes.
 struct ClassBatch {
   static constexpr std::size_t kSize = 8;
-  alignas(64) double normal[3][kSize] = {}, point[3][kSize] = {};   // the point from the eye
-  alignas(64) double lower[3][kSize] = {}, upper[3][kSize] = {};    // bounds
-  alignas(64) double normalError[kSize] = {};
+  alignas(64) double normal[3][kSize] = {}, point[3][kSize] = {};
+  alignas(64) float lower[3][kSize] = {}, upper[3][kSize] = {};   // bounds
+  alignas(64) float normalError[kSize] = {};
 
-  void set(std::size_t i, const Scene& scene, const PlaneClass& planeClass, const glm::dvec3& eye) {
-    const Object& object = scene.objects()[planeClass.object];
-    const glm::dvec3 p = transformPoint(object.worldFromObject, object.mesh->vertices[object.mesh->triangles[planeClass.triangle].x]) - eye;
+  void set(std::size_t i, const PlaneClass& planeClass) {
     for (int k = 0; k < 3; ++k) {
-      normal[k][i] = planeClass.normal[k], point[k][i] = p[k];
-      lower[k][i] = double(planeClass.boundsMin[k]), upper[k][i] = double(planeClass.boundsMax[k]);
+      normal[k][i] = planeClass.normal[k], point[k][i] = planeClass.point[k];
+      lower[k][i] = planeClass.boundsMin[k], upper[k][i] = planeClass.boundsMax[k];
     }
-    normalError[i] = double(planeClass.normalError);
+    normalError[i] = planeClass.normalError;
   }
 };
 
@@ -79,6 +77,12 @@ HWY_INLINE HWY_ATTR V3 load3(const double (&from)[3][ClassBatch::kSize], std::si
   return {hn::Load(d, from[0] + i), hn::Load(d, from[1] + i), hn::Load(d, from[2] + i)};
 }
 
+HWY_INLINE HWY_ATTR V3 promote3(const float (&from)[3][ClassBatch::kSize], std::size_t i) {
+  const F64 d;
+  const F32 f;
+  return {hn::PromoteTo(d, hn::Load(f, from[0] + i)), hn::PromoteTo(d, hn::Load(f, from[1] + i)), hn::PromoteTo(d, hn::Load(f, from[2] + i))};
+}
+
 HWY_INLINE HWY_ATTR V dot(const V3& a, const glm::dvec3& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, all(b.x)), hn::Mul(a.y, all(b.y))), hn::Mul(a.z, all(b.z)));
 }
@@ -101,7 +105,7 @@ HWY_INLINE HWY_ATTR hn::Vec<F32> below(V value) { return hn::Neg(above(hn::Neg(v
 // The depths that the class's faces reach.
 HWY_INLINE HWY_ATTR void setRange(const ClassBatch& from, std::size_t i, const DepthView& setup, PlaneBatch& out) {
   const F32 f;
-  const V3 lower = load3(from.lower, i), upper = load3(from.upper, i);
+  const V3 lower = promote3(from.lower, i), upper = promote3(from.upper, i);
   const auto middle = [&](V l, V u, double eye) HWY_ATTR { return hn::Sub(hn::Mul(hn::Add(l, u), all(0.5)), all(eye)); };
   const auto half = [&](V l, V u) HWY_ATTR { return hn::Mul(hn::Sub(u, l), all(0.5)); };
   const glm::dvec3 forward = setup.view.forward, eye = setup.view.eye, size = glm::abs(forward);
@@ -123,9 +127,10 @@ HWY_INLINE HWY_ATTR void setPlanes(const ClassBatch& from, std::size_t i, const 
   const View& view = setup.view;
   setRange(from, i, setup, out);
   const V lo = hn::PromoteTo(d, hn::Load(f, out.lo + i)), hi = hn::PromoteTo(d, hn::Load(f, out.hi + i));
-  const V3 n = load3(from.normal, i), p = load3(from.point, i);
+  const V3 n = load3(from.normal, i), point = load3(from.point, i);
+  const V3 p{hn::Sub(point.x, all(view.eye.x)), hn::Sub(point.y, all(view.eye.y)), hn::Sub(point.z, all(view.eye.z))};
   const V alongPoint = dot(n, p), alongForward = dot(n, view.forward);
-  const V unit = hn::Add(hn::Load(d, from.normalError + i), all(8 * kEps));   // error of a dot product with n, per length of the other vector
+  const V unit = hn::Add(hn::PromoteTo(d, hn::Load(f, from.normalError + i)), all(8 * kEps));   // error of a dot product with n, per length of the other vector
   const V pointError = hn::Mul(unit, hn::Sqrt(dot(p, p)));
   const V denominator = view.perspective ? alongPoint : alongForward;
   const V denominatorError = view.perspective ? pointError : unit;
@@ -146,12 +151,12 @@ HWY_INLINE HWY_ATTR void setPlanes(const ClassBatch& from, std::size_t i, const 
   hn::Store(above(hn::IfThenElse(known, hn::Add(evaluation, propagated), all(std::numeric_limits<double>::infinity()))), f, out.error + i);
 }
 
-HWY_ATTR void SetDepthPlanes(const Scene& scene, const PlaneClass* classes, std::size_t count, const DepthView& setup, DepthPlane* out) {
+HWY_ATTR void SetDepthPlanes(const PlaneClass* classes, std::size_t count, const DepthView& setup, DepthPlane* out) {
   ClassBatch batch;
   PlaneBatch planes;
   for (std::size_t begin = 0; begin < count; begin += ClassBatch::kSize) {
     const std::size_t size = count - begin < ClassBatch::kSize ? count - begin : ClassBatch::kSize;
-    for (std::size_t i = 0; i < size; ++i) batch.set(i, scene, classes[begin + i], setup.view.eye);
+    for (std::size_t i = 0; i < size; ++i) batch.set(i, classes[begin + i]);
     for (std::size_t i = 0; i < size; i += hn::Lanes(F64())) setPlanes(batch, i, setup, planes);
     for (std::size_t i = 0; i < size; ++i) out[begin + i] = {planes.a[i], planes.b[i], planes.c[i], planes.lo[i], planes.hi[i], planes.error[i]};
   }

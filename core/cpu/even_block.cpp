@@ -15,9 +15,10 @@ Cover coverOf(const TriangleSetup& t, const PixelRect& block) {
   if (t.covered) return Cover::Some;   // it has no edges, and is small
   // Edges that the triangle's bounds make redundant were dropped, so the bounds count.
   bool all = t.x0 <= block.x && t.x1 >= right && t.y0 <= block.y && t.y1 >= bottom;
+  const TriangleEdges& edges = *t.edges;
   for (int i = 0; i < 3; ++i) {
-    const int corner = t.a[i] * block.x + t.b[i] * block.y + t.c[i];
-    const int across = t.a[i] * (block.width - 1), down = t.b[i] * (block.height - 1);
+    const int corner = edges.a[i] * block.x + edges.b[i] * block.y + edges.c[i];
+    const int across = edges.a[i] * (block.width - 1), down = edges.b[i] * (block.height - 1);
     if (corner + std::max(across, 0) + std::max(down, 0) < 0) return Cover::None;
     all &= corner + std::min(across, 0) + std::min(down, 0) >= 0;
   }

@@ -39,16 +39,16 @@ struct Within {
 
 // Bit x of row y (bit 8·y + x) is set where all three edges are not negative. e: the edges at the first of 8×8 samples. Edges that the
 // triangle's bounds make redundant were dropped, so the bounds count.
-HWY_INLINE HWY_ATTR std::uint64_t coverage(const TriangleSetup& t, const std::int32_t (&e)[3], const Within& within) {
+HWY_INLINE HWY_ATTR std::uint64_t coverage(const TriangleEdges& edges, const std::int32_t (&e)[3], const Within& within) {
   const I32 d;
   const std::size_t lanes = hn::Lanes(d);
   std::uint64_t bits = 0;
   for (std::size_t lane = 0; lane < kBlockSize; lane += lanes) {
     const auto iota = hn::Load(d, kIotaInt + lane);
-    auto e0 = hn::Add(hn::Set(d, e[0] + t.b[0] * within.y0), hn::Mul(hn::Set(d, t.a[0]), iota));
-    auto e1 = hn::Add(hn::Set(d, e[1] + t.b[1] * within.y0), hn::Mul(hn::Set(d, t.a[1]), iota));
-    auto e2 = hn::Add(hn::Set(d, e[2] + t.b[2] * within.y0), hn::Mul(hn::Set(d, t.a[2]), iota));
-    const auto b0 = hn::Set(d, t.b[0]), b1 = hn::Set(d, t.b[1]), b2 = hn::Set(d, t.b[2]);
+    auto e0 = hn::Add(hn::Set(d, e[0] + edges.b[0] * within.y0), hn::Mul(hn::Set(d, edges.a[0]), iota));
+    auto e1 = hn::Add(hn::Set(d, e[1] + edges.b[1] * within.y0), hn::Mul(hn::Set(d, edges.a[1]), iota));
+    auto e2 = hn::Add(hn::Set(d, e[2] + edges.b[2] * within.y0), hn::Mul(hn::Set(d, edges.a[2]), iota));
+    const auto b0 = hn::Set(d, edges.b[0]), b1 = hn::Set(d, edges.b[1]), b2 = hn::Set(d, edges.b[2]);
     for (int row = within.y0; row <= within.y1; ++row) {
       const auto outside = hn::Lt(hn::Or(hn::Or(e0, e1), e2), hn::Zero(d));
       std::uint8_t byte[8] = {};
@@ -62,16 +62,17 @@ HWY_INLINE HWY_ATTR std::uint64_t coverage(const TriangleSetup& t, const std::in
 
 // Of a block. x, y: its first pixel in the tile.
 HWY_INLINE HWY_ATTR std::uint64_t blockCoverage(const TriangleSetup& t, int x, int y) {
+  const TriangleEdges& edges = *t.edges;
   std::int32_t e[3];
   bool full = true;
   for (int i = 0; i < 3; ++i) {
-    e[i] = t.a[i] * x + t.b[i] * y + t.c[i];
-    const std::int32_t across = (kBlockSize - 1) * t.a[i], down = (kBlockSize - 1) * t.b[i];
+    e[i] = edges.a[i] * x + edges.b[i] * y + edges.c[i];
+    const std::int32_t across = (kBlockSize - 1) * edges.a[i], down = (kBlockSize - 1) * edges.b[i];
     if (e[i] + (across > 0 ? across : 0) + (down > 0 ? down : 0) < 0) return 0;
     full &= e[i] + (across < 0 ? across : 0) + (down < 0 ? down : 0) >= 0;
   }
   const Within within(t, x, y);
-  return full ? within.all() : coverage(t, e, within);
+  return full ? within.all() : coverage(edges, e, within);
 }
 
 // keyAt of so many pixels of a row. x, y: the first one in the tile.
@@ -138,12 +139,14 @@ HWY_INLINE HWY_ATTR void forEachCovered(unsigned x, unsigned y, std::uint64_t co
 // In windows of 8×8 from the corner of its bounds on: nearly every small triangle fits one.
 template <class Visit>
 HWY_NOINLINE HWY_ATTR void visitWindows(const TriangleSetup& t, KeyFormat format, Visit visit) {
+  const TriangleEdges& edges = *t.edges;
   alignas(64) std::uint64_t keys[kBlockPixels];
   for (int y = t.y0; y <= t.y1; y += kBlockSize) {
     for (int x = t.x0; x <= t.x1; x += kBlockSize) {
-      const std::int32_t e[3] = {t.a[0] * x + t.b[0] * y + t.c[0], t.a[1] * x + t.b[1] * y + t.c[1], t.a[2] * x + t.b[2] * y + t.c[2]};
+      std::int32_t e[3];
+      for (int i = 0; i < 3; ++i) e[i] = edges.a[i] * x + edges.b[i] * y + edges.c[i];
       const Within within(t, x, y);
-      const std::uint64_t covered = coverage(t, e, within);
+      const std::uint64_t covered = coverage(edges, e, within);
       for (int row = 0; row <= within.y1; ++row) rowKeys<kBlockSize>(t, x, y + row, format, keys + kBlockSize * row);
       forEachCovered(static_cast<unsigned>(x), static_cast<unsigned>(y), covered, keys, visit);
     }

@@ -25,16 +25,22 @@ inline constexpr int kKeyBits = 62;                 // the top two stay clear: a
 inline constexpr int kMostDepthBits = 48;
 inline constexpr std::uint64_t kEmptyKey = 0x7FE0000000000000ull;   // greater than every key (2^1023 as a double)
 
-// A triangle in a tile. Pixels count from the tile's upper left sample; e = a·x + b·y + c >= 0 on the inner side of an edge, with the
-// top-left rule folded into c, where the samples are not known already (`covered`); depth d = clamp(da·x + (db·y + dc), lo, hi) in key units plus 2^52.
-struct TriangleSetup {
+// Of a triangle in a tile. Pixels count from the tile's upper left sample; e = a·x + b·y + c >= 0 on the inner side of an edge, with the
+// top-left rule folded into c.
+struct TriangleEdges {
   std::int32_t a[3], b[3], c[3];
+};
+
+// A triangle in a tile: a line of the cache. Depth d = clamp(da·x + (db·y + dc), lo, hi) in key units plus 2^52.
+struct alignas(64) TriangleSetup {
   std::uint8_t x0, y0, x1, y1;      // bounds of covered samples, inclusive
   std::uint32_t slot;
   std::uint32_t covered;            // EdgeBatch::covered
   std::uint16_t samples;            // about how many it covers
+  const TriangleEdges* edges;       // where `covered` is 0
   double da, db, dc, lo, hi;
 };
+static_assert(sizeof(TriangleSetup) == 64);
 
 inline constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};   // of depths of keys
 

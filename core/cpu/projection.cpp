@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/coplanarity/depth_planes.h"
+#include "core/cpu/place_vertices.h"
 #include "core/parallel.h"
 
 namespace copeel::cpu {
@@ -105,24 +106,17 @@ Projection project(const Scene& scene, const View& view) {
   const Camera camera(view);
   const Frame frame = frameOf(view, result.grid);
   const double nearest = nearDistance(scene, view);
-  const auto projectVertex = [&](const Object& object, const glm::dvec3& vertex, bool& reachesEye) {
-    const glm::dvec3 p = camera(transformPoint(object.worldFromObject, vertex));
-    const bool behind = view.perspective && !(p.z >= nearest);
-    reachesEye |= behind;
-    const double w = camera.weight(p), u = p.x / w, v = p.y / w;
-    const bool fits = !behind && std::abs(u) <= frame.limitX && std::abs(v) <= frame.limitY;
-    return fits ? snap(u, v, frame) : glm::ivec2(kOffGrid, 0);
-  };
   parallelFor(objectCount, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i) {
       if (shares[i]) continue;
       const Object& object = scene.objects()[i];
       glm::ivec2* const out = result.vertices.data() + result.firstVertex[i];
       const std::size_t vertexCount = object.mesh->vertices.size();
+      const Placement placement{object.worldFromObject, view.eye, camera.right, camera.down, view.forward, view.perspective, nearest,
+                                frame.limitX, frame.limitY, frame.originX, frame.originY, frame.scale};
       const auto projectRange = [&](std::size_t first, std::size_t last) {
-        bool reachesEye = false;
-        for (std::size_t v = first; v != last; ++v) out[v] = projectVertex(object, object.mesh->vertices[v], reachesEye);
-        if (reachesEye) std::atomic_ref<std::uint8_t>(result.reachesEye[i]).store(1, std::memory_order_relaxed);
+        if (!placeVertices(placement, {object.mesh->vertices.data() + first, last - first}, out + first)) return;
+        std::atomic_ref<std::uint8_t>(result.reachesEye[i]).store(1, std::memory_order_relaxed);
       };
       if (vertexCount <= kGrain) projectRange(0, vertexCount);
       else parallelFor(vertexCount, kGrain, projectRange);

@@ -67,8 +67,9 @@ void Tile::setUp(const Frame& frame) {
   };
   makeRoom(slotRoom_);
   makeRoom(setupRoom_);
+  makeRoom(edgeRoom_);
   makeRoom(ranges_);
-  count_ = 0;
+  count_ = edgeCount_ = 0;
   samples_ = 0;
   depths_ = {};
   leastError_ = std::numeric_limits<double>::infinity();
@@ -132,8 +133,11 @@ void Tile::setUpBatch(const Frame& frame, int count) {
 // Its depth in order values yet.
 inline void Tile::addSetup(int at) {
   TriangleSetup& t = setupRoom_[count_];
+  t.edges = nullptr;
   if (!edges_.covered[at]) {
-    for (int k = 0; k < 3; ++k) t.a[k] = edges_.a[k][at], t.b[k] = edges_.b[k][at], t.c[k] = edges_.c[k][at];
+    TriangleEdges& edges = edgeRoom_[edgeCount_++];
+    for (int k = 0; k < 3; ++k) edges.a[k] = edges_.a[k][at], edges.b[k] = edges_.b[k][at], edges.c[k] = edges_.c[k][at];
+    t.edges = &edges;
   }
   const auto bounds = static_cast<std::uint32_t>(edges_.bounds[at]);
   t.x0 = static_cast<std::uint8_t>(bounds), t.y0 = static_cast<std::uint8_t>(bounds >> 8);
@@ -170,8 +174,9 @@ void Tile::rangesOfBlocks(std::vector<DepthRange>& ranges) const {
         const int x = bx * kBlockSize, y = by * kBlockSize;
         // An edge with the whole block on its outer side keeps the triangle out.
         bool outside = false;
-        for (int i = 0; i < 3 && !t.covered; ++i) {
-          outside |= t.a[i] * (t.a[i] > 0 ? x + kLast : x) + t.b[i] * (t.b[i] > 0 ? y + kLast : y) + t.c[i] < 0;
+        for (int i = 0; i < 3 && t.edges; ++i) {
+          const std::int32_t a = t.edges->a[i], b = t.edges->b[i];
+          outside |= a * (a > 0 ? x + kLast : x) + b * (b > 0 ? y + kLast : y) + t.edges->c[i] < 0;
         }
         if (outside) continue;
         const int left = std::max<int>(t.x0, x), right = std::min<int>(t.x1, x + kLast);

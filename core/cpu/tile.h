@@ -95,8 +95,9 @@ class Tile {
   // Room for all references, kept from tile to tile; so many are in use.
   std::vector<TileSlot> slotRoom_;
   std::vector<TriangleSetup> setupRoom_, sortedRoom_;
+  std::vector<TriangleEdges> edgeRoom_;
   std::vector<SetupRange> ranges_;          // order values of each setup in the tile
-  std::size_t count_ = 0;
+  std::size_t count_ = 0, edgeCount_ = 0;
   std::int64_t samples_ = 0;                // of all setups
   DepthRange depths_;                       // of all setups, without the error
   double leastError_ = 0, mostError_ = 0;   // of all slots, of all setups
