@@ -251,13 +251,13 @@ class PlaneClasses::Former {
 
 PlaneClasses::PlaneClasses(const Scene& scene, double tolerance)
     : tolerance_(tolerance > 0 ? tolerance : defaultCoplanarTolerance(scene)) {
-  firstFacet_.push_back(0);
-  for (const Object& object : scene.objects()) firstFacet_.push_back(firstFacet_.back() + object.mesh->facetCount());
-  const std::size_t facetCount = firstFacet_.back();
+  std::vector<std::uint64_t> firstFacet{0};   // of each object, and the end
+  for (const Object& object : scene.objects()) firstFacet.push_back(firstFacet.back() + object.mesh->facetCount());
+  const std::size_t facetCount = firstFacet.back();
   classOfFacet_.assign(facetCount, kNone);
   classes_ = std::make_unique_for_overwrite<PlaneClass[]>(facetCount);
 
-  const Former former(scene, tolerance_, firstFacet_);
+  const Former former(scene, tolerance_, firstFacet);
   std::vector<std::uint32_t> inReach;
   {
     std::vector<PlaneCells::Place> places(facetCount);
@@ -268,6 +268,20 @@ PlaneClasses::PlaneClasses(const Scene& scene, double tolerance)
       former.form(former.keysOf(inReach, classes_.get()), classes_.get(),
                   [&](std::uint32_t facet, std::uint32_t planeClass) { classOfFacet_[facet] = planeClass; });
   numberByObject(representatives);
+  shareLists(scene, firstFacet);
+}
+
+// A mesh placed again where the object before has it mostly has its classes too: frames that meet both find them in the caches if they are there once.
+void PlaneClasses::shareLists(const Scene& scene, const std::vector<std::uint64_t>& firstFacet) {
+  std::uint32_t* const all = classOfFacet_.data();
+  std::uint32_t* kept = all;
+  for (std::size_t i = 0; i < scene.objects().size(); ++i) {
+    const std::uint32_t *const begin = all + firstFacet[i], *const end = all + firstFacet[i + 1];
+    const bool shares = scene.repeats(i) && std::equal(begin, end, all + firstClass_.back());
+    firstClass_.push_back(shares ? firstClass_.back() : static_cast<std::uint64_t>(kept - all));
+    if (!shares) kept = std::copy(begin, end, kept);
+  }
+  classOfFacet_.resize(static_cast<std::size_t>(kept - all));
 }
 
 // Classes numbered as the objects meet them, so that what is drawn together lies together. Each moves down to its place: a representative is never

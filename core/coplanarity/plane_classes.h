@@ -38,17 +38,18 @@ class PlaneClasses {
 
   double tolerance() const { return tolerance_; }
   std::span<const PlaneClass> classes() const { return {classes_.get(), classCount_}; }
-  std::uint32_t classOf(std::uint32_t object, std::uint32_t facet) const { return classOfFacet_[firstFacet_[object] + facet]; }
-  const std::uint32_t* classesOfObject(std::uint32_t object) const { return classOfFacet_.data() + firstFacet_[object]; }
+  std::uint32_t classOf(std::uint32_t object, std::uint32_t facet) const { return classesOfObject(object)[facet]; }
+  const std::uint32_t* classesOfObject(std::uint32_t object) const { return classOfFacet_.data() + firstClass_[object]; }
 
  private:
   class Former;
   void numberByObject(const std::vector<std::uint32_t>& representatives);
+  void shareLists(const Scene& scene, const std::vector<std::uint64_t>& firstFacet);
 
   double tolerance_ = 0;
   std::unique_ptr<PlaneClass[]> classes_;   // room for a class of each facet
   std::uint32_t classCount_ = 0;
-  std::vector<std::uint64_t> firstFacet_;   // of each object, and the end
+  std::vector<std::uint64_t> firstClass_;   // of each object, into classOfFacet_
   std::vector<std::uint32_t> classOfFacet_;
 };
 

@@ -71,13 +71,6 @@ glm::dvec3 cutEdge(glm::dvec3 a, double da, glm::dvec3 b, double db) {
   return a + (b - a) * (da / (da - db));
 }
 
-// True where the object before is the same mesh in the same place.
-bool repeats(const Scene& scene, std::size_t object) {
-  if (object == 0) return false;
-  const Object &before = scene.objects()[object - 1], &here = scene.objects()[object];
-  return here.mesh == before.mesh && here.worldFromObject == before.worldFromObject;
-}
-
 }  // namespace
 
 Grid gridFor(const View& view) {
@@ -97,7 +90,7 @@ Projection project(const Scene& scene, const View& view) {
   std::vector<std::uint8_t> shares(objectCount);
   std::uint64_t count = 0;
   for (std::size_t i = 0; i < objectCount; ++i) {
-    shares[i] = repeats(scene, i);
+    shares[i] = scene.repeats(i);
     result.firstVertex.push_back(shares[i] ? result.firstVertex.back() : count);
     if (!shares[i]) count += scene.objects()[i].mesh->vertices.size();
   }

@@ -33,6 +33,12 @@ class Scene {
   std::uint32_t primitiveCount() const { return firstPrimitive_.back(); }
   std::uint32_t firstPrimitive(std::uint32_t object) const { return firstPrimitive_[object]; }
   std::uint32_t objectOf(std::uint32_t primitive) const;   // O(log objects)
+  // True where the object before is the same mesh in the same place.
+  bool repeats(std::size_t object) const {
+    if (object == 0) return false;
+    const Object &before = objects_[object - 1], &here = objects_[object];
+    return here.mesh == before.mesh && here.worldFromObject == before.worldFromObject;
+  }
   glm::dvec3 worldVertex(std::uint32_t object, std::uint32_t vertex) const;
   const Box& bounds() const { return bounds_; }            // of all vertices used by triangles, world units
 
