@@ -82,8 +82,11 @@ void Tile::setUp(const Frame& frame) {
     const Source source{i, turn, frame.scene.firstPrimitive(object.object), frame.scene.objects()[object.object].mesh.get(),
                         frame.projection.vertices.data() + frame.projection.firstVertex[object.object], frame.planes.classesOfObject(object.object)};
     // Batches run on from object to object.
-    for (std::uint32_t k = object.firstReference; k < object.lastReference; ++k) {
-      gather(frame, source, references_[k], count++);
+    for (std::uint32_t k = object.firstReference; k < object.lastReference;) {
+      const auto references = references_.subspan(k, std::min<std::size_t>(object.lastReference - k, kEdgeBatch - count));
+      gather(frame, source, references, count);
+      k += references.size();
+      count += static_cast<int>(references.size());
       if (count == kEdgeBatch) setUpBatch(frame, std::exchange(count, 0));
     }
   }
@@ -92,24 +95,30 @@ void Tile::setUp(const Frame& frame) {
   setups = {setupRoom_.data(), count_};
 }
 
-// Corners to place `at` of the batch.
-inline void Tile::gather(const Frame& frame, const Source& source, std::uint32_t reference, int at) {
-  glm::ivec2 p, q, r;
-  std::uint32_t triangle;
-  if (reference < kPrimitiveLimit) {
-    triangle = reference - source.firstPrimitive;
-    const glm::uvec3 t = source.mesh->triangles[triangle];
-    p = source.vertices[t.x], q = source.vertices[t.y], r = source.vertices[t.z];
-  } else {
-    const ClippedTriangle& piece = frame.bins.clipped[reference - kPrimitiveLimit];
-    triangle = piece.primitive - source.firstPrimitive;
-    p = piece.corners[0], q = piece.corners[1], r = piece.corners[2];
+// Corners to the places of the batch from `at` on. Most of what is read lies far away: each step reads what the one before has found for all of them,
+// so that few reads wait for each other.
+void Tile::gather(const Frame& frame, const Source& source, std::span<const std::uint32_t> references, int at) {
+  const std::size_t count = references.size();
+  glm::uvec3 corners[kEdgeBatch];
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t triangle = primitiveOf(frame, references[i]) - source.firstPrimitive;
+    const std::uint32_t planeClass = source.classes[source.mesh->facetOf(triangle)];
+    __builtin_prefetch(&frame.depths[planeClass]);
+    __builtin_prefetch(&frame.depths[planeClass].error);
+    gathered_[at + i] = {source.firstPrimitive + triangle, planeClass, source.index, source.turn, 0};
+    corners[i] = source.mesh->triangles[triangle];
   }
-  edges_.px[at] = p.x, edges_.py[at] = p.y, edges_.qx[at] = q.x, edges_.qy[at] = q.y, edges_.rx[at] = r.x, edges_.ry[at] = r.y;
-  // The class's plane is wanted soon, and rarely lies near the last one.
-  const std::uint32_t planeClass = source.classes[source.mesh->facetOf(triangle)];
-  __builtin_prefetch(&frame.depths[planeClass]);
-  gathered_[at] = {source.firstPrimitive + triangle, planeClass, source.index, source.turn, 0};
+  for (std::size_t i = 0; i < count; ++i) {
+    glm::ivec2 p, q, r;
+    if (references[i] < kPrimitiveLimit) {
+      p = source.vertices[corners[i].x], q = source.vertices[corners[i].y], r = source.vertices[corners[i].z];
+    } else {
+      const ClippedTriangle& piece = frame.bins.clipped[references[i] - kPrimitiveLimit];
+      p = piece.corners[0], q = piece.corners[1], r = piece.corners[2];
+    }
+    const std::size_t to = at + i;
+    edges_.px[to] = p.x, edges_.py[to] = p.y, edges_.qx[to] = q.x, edges_.qy[to] = q.y, edges_.rx[to] = r.x, edges_.ry[to] = r.y;
+  }
 }
 
 void Tile::setUpBatch(const Frame& frame, int count) {

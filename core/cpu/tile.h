@@ -80,7 +80,7 @@ class Tile {
     const glm::ivec2* vertices;             // on the grid
     const std::uint32_t* classes;           // of its facets
   };
-  void gather(const Frame& frame, const Source& source, std::uint32_t reference, int at);
+  void gather(const Frame& frame, const Source& source, std::span<const std::uint32_t> references, int at);
   void setUpBatch(const Frame& frame, int count);
   void addSetup(int at);
   void drop(double farthest);
