@@ -55,7 +55,7 @@ std::uint64_t OverFold::foldBlock(const cpu::FragmentBlock& block, const cpu::Ti
   fold::BlendedPixel blended[cpu::kBlockPixels];
   const std::uint64_t coplanar = fold::blendBlock({block, tile.format, colors_.data(), background_, mayEnd_}, order, blended);
   const bool wantsNearest = canvas_.targets().depth || canvas_.targets().ids;
-  if (!wantsNearest && !canvas_.targets().floats) {
+  if (!wantsNearest && !canvas_.targets().floats && !canvas_.targets().counts()) {
     putColors(order.certain, blended, x, y);
     return coplanar;
   }
@@ -65,6 +65,7 @@ std::uint64_t OverFold::foldBlock(const cpu::FragmentBlock& block, const cpu::Ti
     PixelResult result;
     result.color = {from.color[0], from.color[1], from.color[2]};
     result.bytes = from.bytes;
+    result.layers = result.largestGroup = 1;   // wanted of the z-buffer alone
     if (wantsNearest) result.nearest = nearestSeen(stackOf(block, p, tile));
     canvas_.put({x + p % cpu::kBlockSize, y + p / cpu::kBlockSize, 1, 1}, result, tile);
   }
@@ -85,16 +86,20 @@ const cpu::TileSlot* OverFold::nearestSeen(const PixelStack& stack) const {
   return nullptr;
 }
 
-PixelResult OverFold::single(const cpu::TileSlot& slot, const cpu::Tile& tile) const {
-  PixelResult result;
-  fold::OverState state;
-  fold::overBegin(state);
-  const glm::vec4 color = colorOf(slot, tile.objects[slot.object].object);
-  fold::overFragment(state, color);
-  result.layers = result.largestGroup = 1;
-  if (color.a > 0) result.nearest = &slot;
-  setColor(result, state);
-  return result;
+void OverFold::takeNearest(cpu::Tile& tile, std::uint64_t* keys) {
+  beginTile(tile);
+  narrowTile(tile);
+  for (int b = 0; b < cpu::kBlocksPerTile; ++b, keys += cpu::kBlockPixels) {
+    std::uint32_t counts[cpu::kBlockPixels];
+    cpu::BlockOrder order;
+    for (int p = 0; p < cpu::kBlockPixels; ++p) {
+      counts[p] = keys[p] != cpu::kEmptyKey;
+      order.certain |= std::uint64_t{counts[p]} << p;
+    }
+    if (!order.certain) continue;
+    const int x = b % cpu::kBlocksPerSide * cpu::kBlockSize, y = b / cpu::kBlocksPerSide * cpu::kBlockSize;
+    foldBlock({keys, counts, cpu::kBlockPixels}, tile, order, tile.x0 + x, tile.y0 + y);
+  }
 }
 
 }  // namespace copeel::oit

@@ -120,8 +120,8 @@ class OverFold {
   // Whole blocks at once (core/fold/fold.h). Layers and groups are counted pixel by pixel.
   std::uint64_t foldBlock(const cpu::FragmentBlock& block, const cpu::Tile& tile, const cpu::BlockOrder& order, int x, int y);
 
-  // The z-buffer's pixel, which has one fragment.
-  PixelResult single(const cpu::TileSlot& slot, const cpu::Tile& tile) const;
+  // The z-buffer's tile, with a fragment a pixel at most.
+  void takeNearest(cpu::Tile& tile, std::uint64_t* keys);
 
  private:
   void blend(std::uint32_t slot) {

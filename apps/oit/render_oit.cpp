@@ -72,9 +72,8 @@ void Renderer::State::drawPass(const View& view, const Targets& targets) {
   const Canvas canvas(frame, targets);
   const auto makeFold = [&] { return OverFold(frame, tables, opaque, background(), canvas); };
   if (options.method->keeps == Keeps::Nearest) {
-    const OverFold fold = makeFold();
-    cpu::renderNearest(frame, [&](int x, int y, const cpu::TileSlot& slot, const cpu::Tile& tile) {
-      canvas.put({x, y, 1, 1}, fold.single(slot, tile), tile);
+    cpu::renderNearestTiles(frame, [&] {
+      return [fold = makeFold()](cpu::Tile& tile, std::uint64_t* keys) mutable { fold.takeNearest(tile, keys); };
     });
     return;
   }
