@@ -2,14 +2,21 @@
 
 #include <new>
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define COPEEL_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#define COPEEL_SANITIZED 1
+#endif
+#endif
+
+#ifndef COPEEL_SANITIZED
 #include <tbb/scalable_allocator.h>
-#define COPEEL_KEEPS_MEMORY 1
 #endif
 
 namespace copeel::parallel {
 
-#ifdef COPEEL_KEEPS_MEMORY
+#ifndef COPEEL_SANITIZED
 void* takeMemory(std::size_t bytes) {
   void* const memory = scalable_malloc(bytes);
   if (!memory) throw std::bad_alloc();

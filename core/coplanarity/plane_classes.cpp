@@ -279,7 +279,9 @@ void PlaneClasses::shareLists(const Scene& scene, const std::vector<std::uint64_
     const std::uint32_t *const begin = all + firstFacet[i], *const end = all + firstFacet[i + 1];
     const bool shares = scene.repeats(i) && std::equal(begin, end, all + firstClass_.back());
     firstClass_.push_back(shares ? firstClass_.back() : static_cast<std::uint64_t>(kept - all));
-    if (!shares) kept = std::copy(begin, end, kept);
+    if (shares) continue;
+    if (kept != begin) std::copy(begin, end, kept);
+    kept += end - begin;
   }
   classOfFacet_.resize(static_cast<std::size_t>(kept - all));
 }

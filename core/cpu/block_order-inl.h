@@ -11,15 +11,20 @@
 #include "core/cpu/block_order.h"
 #include "core/fold/fold.h"
 
-#ifndef COPEEL_SORT_STEPS_
-#define COPEEL_SORT_STEPS_
-
+HWY_BEFORE_NAMESPACE();
 namespace copeel::cpu {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using F64 = hn::CappedTag<double, kBlockSize>;
+using U64 = hn::CappedTag<std::uint64_t, kBlockSize>;
+using I64 = hn::CappedTag<std::int64_t, kBlockSize>;
 
 // `visit(i, j)`, i < j: the compare-exchanges of Batcher's odd-even merge sort of n elements. Based on: Batcher. Sorting networks and their applications.
 // AFIPS 1968.
 template <class Visit>
-constexpr void forEachSortStep(std::uint32_t n, const Visit& visit) {
+HWY_ATTR constexpr void forEachSortStep(std::uint32_t n, const Visit& visit) {
   for (std::uint32_t log = 0; (1u << log) < n; ++log) {
     const std::uint32_t p = 1u << log;
     for (std::uint32_t k = p; k >= 1; k /= 2) {
@@ -44,31 +49,18 @@ struct SortSteps {
   std::uint16_t begin[kMostTabledLayers + 2] = {};
   SortStep steps[15174] = {};
 
-  constexpr SortSteps() {
+  HWY_ATTR constexpr SortSteps() {
     std::uint16_t count = 0;
     for (std::uint32_t n = 0; n <= kMostTabledLayers; ++n) {
       begin[n] = count;
-      forEachSortStep(n, [&](std::uint32_t i, std::uint32_t j) { steps[count++] = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j)}; });
+      forEachSortStep(n, [&](std::uint32_t i, std::uint32_t j) HWY_ATTR { steps[count++] = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j)}; });
     }
     begin[kMostTabledLayers + 1] = count;
   }
   std::span<const SortStep> of(std::uint32_t n) const { return {steps + begin[n], steps + begin[n + 1]}; }
 };
 inline constexpr SortSteps kSortSteps;
-
-}  // namespace copeel::cpu
-
-#endif
-
-HWY_BEFORE_NAMESPACE();
-namespace copeel::cpu {
-namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-using F64 = hn::CappedTag<double, kBlockSize>;
-using U64 = hn::CappedTag<std::uint64_t, kBlockSize>;
-using I64 = hn::CappedTag<std::int64_t, kBlockSize>;
+static_assert(kSortSteps.begin[kMostTabledLayers + 1] == std::size(kSortSteps.steps));
 
 HWY_INLINE HWY_ATTR void compareExchange(std::uint64_t* p, std::uint64_t* q) {
   const F64 d;
@@ -193,11 +185,11 @@ HWY_INLINE HWY_ATTR Neighbours closeNeighbours(const std::uint64_t* keys, std::s
   const auto reach = hn::Set(d, static_cast<std::int64_t>(2 * tile.format.uncertainty) + 1), none = hn::BitCast(d, hn::Set(u, kEmptyKey));
   const auto depthOf = [&](hn::Vec<U64> key) HWY_ATTR { return hn::BitCast(d, hn::ShiftRightSame(key, tile.format.slotBits())); };
   const auto classOf = [&](hn::Vec<U64> key) HWY_ATTR {
-    static_assert(offsetof(TileSlot, planeClass) + sizeof(std::uint64_t) <= sizeof(TileSlot));
     const auto slot = hn::And(key, hn::Set(u, tile.lastSlot()));
+    // 24 bytes a slot, and the class in the upper half of the first eight.
+    static_assert(sizeof(TileSlot) == 24 && offsetof(TileSlot, planeClass) == 4 && std::endian::native == std::endian::little);
     const auto offset = hn::BitCast(d, hn::Add(hn::ShiftLeft<4>(slot), hn::ShiftLeft<3>(slot)));
-    static_assert(sizeof(TileSlot) == 24);
-    return hn::And(hn::GatherOffset(u, reinterpret_cast<const std::uint64_t*>(&tile.slots.data()->planeClass), offset), hn::Set(u, 0xFFFFFFFFu));
+    return hn::ShiftRight<32>(hn::GatherOffset(u, reinterpret_cast<const std::uint64_t*>(tile.slots.data()), offset));
   };
   Neighbours result;
   for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(u)) {

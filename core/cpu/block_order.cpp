@@ -2,6 +2,10 @@
 #include "core/cpu/block_order.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <iterator>
+#include <span>
 #include <vector>
 
 #include "core/cpu/tile.h"

@@ -129,8 +129,9 @@ HWY_INLINE HWY_ATTR void coverSmall(EdgeBatch& batch, int i) {
   const Samples d;
   const hn::RebindToUnsigned<Samples> bits;
   const auto one = hn::Set(d, 1), four = hn::Set(d, 4), side = hn::Load(d, batch.side + i);
-  const auto width = hn::Add(hn::Sub(hn::Load(d, batch.x1 + i), hn::Load(d, batch.x0 + i)), one);
-  const auto height = hn::Add(hn::Sub(hn::Load(d, batch.y1 + i), hn::Load(d, batch.y0 + i)), one);
+  const auto x0 = hn::Load(d, batch.x0 + i), y0 = hn::Load(d, batch.y0 + i), x1 = hn::Load(d, batch.x1 + i), y1 = hn::Load(d, batch.y1 + i);
+  hn::Store(hn::Or(hn::Or(x0, hn::ShiftLeft<8>(y0)), hn::Or(hn::ShiftLeft<16>(x1), hn::ShiftLeft<24>(y1))), d, batch.bounds + i);
+  const auto width = hn::Add(hn::Sub(x1, x0), one), height = hn::Add(hn::Sub(y1, y0), one);
   const auto small = hn::And(hn::Ne(side, hn::Zero(d)), hn::Not(hn::Gt(hn::Max(width, height), four)));
   // Bits of the columns and rows that are within bounds.
   const auto columns = hn::Mul(hn::Sub(hn::Shl(one, hn::Min(hn::Max(width, one), four)), one), hn::Set(d, 0x01010101));
@@ -144,13 +145,14 @@ HWY_INLINE HWY_ATTR void coverSmall(EdgeBatch& batch, int i) {
 }
 
 // Depths that the planes reach within the bounds.
-HWY_INLINE HWY_ATTR void setUpDepths(EdgeBatch& batch, int i, const Bounds& bounds, const TileFrame& tile) {
+HWY_INLINE HWY_ATTR void setUpDepths(EdgeBatch& batch, int i, const TileFrame& tile) {
   const Exact d;
   const hn::Rebind<float, Exact> f;
+  const Corner first = corner(batch.x0 + i, batch.y0 + i), last = corner(batch.x1 + i, batch.y1 + i);
   const Lanes a = hn::Load(d, batch.planeA + i), b = hn::Load(d, batch.planeB + i), c = hn::Load(d, batch.planeC + i);
   const Lanes lo = hn::PromoteTo(d, hn::Load(f, batch.planeLo + i)), hi = hn::PromoteTo(d, hn::Load(f, batch.planeHi + i));
   const Lanes dc = hn::Add(hn::Mul(a, hn::Set(d, tile.u)), hn::Add(hn::Mul(b, hn::Set(d, tile.v)), c));
-  const Lanes left = hn::Mul(a, bounds.x0), right = hn::Mul(a, bounds.x1), top = hn::Mul(b, bounds.y0), bottom = hn::Mul(b, bounds.y1);
+  const Lanes left = hn::Mul(a, first.x), right = hn::Mul(a, last.x), top = hn::Mul(b, first.y), bottom = hn::Mul(b, last.y);
   const auto clamped = [&](Lanes depth) HWY_ATTR { return hn::Min(hn::Max(depth, lo), hi); };
   hn::Store(dc, d, batch.dc + i);
   hn::Store(lo, d, batch.lo + i);
@@ -160,47 +162,113 @@ HWY_INLINE HWY_ATTR void setUpDepths(EdgeBatch& batch, int i, const Bounds& boun
   hn::Store(hn::PromoteTo(d, hn::Load(f, batch.planeError + i)), d, batch.error + i);
 }
 
-HWY_INLINE HWY_ATTR void storeBounds(EdgeBatch& batch, int i, const Bounds& bounds) {
-  const Whole whole;
-  const auto x0 = hn::DemoteTo(whole, bounds.x0), y0 = hn::DemoteTo(whole, bounds.y0), x1 = hn::DemoteTo(whole, bounds.x1), y1 = hn::DemoteTo(whole, bounds.y1);
-  hn::Store(x0, whole, batch.x0 + i);
-  hn::Store(y0, whole, batch.y0 + i);
-  hn::Store(x1, whole, batch.x1 + i);
-  hn::Store(y1, whole, batch.y1 + i);
-  hn::Store(hn::Or(hn::Or(x0, hn::ShiftLeft<8>(y0)), hn::Or(hn::ShiftLeft<16>(x1), hn::ShiftLeft<24>(y1))), whole, batch.bounds + i);
-}
-
-HWY_ATTR void SetUpEdges(EdgeBatch& batch, int count, const TileFrame& tile) {
+// Of any triangles. Their edges and bounds, at as many places from i on as doubles have lanes.
+HWY_INLINE HWY_ATTR void setUpAny(EdgeBatch& batch, int i, const TileFrame& tile) {
   const Exact d;
   const Whole whole;
   const Lanes zero = hn::Zero(d);
-  const int lanes = static_cast<int>(hn::Lanes(d));
-  for (int i = 0; i < count; i += lanes) {
-    const Corner p = corner(batch.px + i, batch.py + i), second = corner(batch.qx + i, batch.qy + i), third = corner(batch.rx + i, batch.ry + i);
-    const Lanes area = hn::Sub(hn::Mul(hn::Sub(second.x, p.x), hn::Sub(third.y, p.y)), hn::Mul(hn::Sub(second.y, p.y), hn::Sub(third.x, p.x)));
-    const Bounds bounds = boundsOf(p, second, third, tile);
-    storeBounds(batch, i, bounds);
-    setUpDepths(batch, i, bounds, tile);
+  const Corner p = corner(batch.px + i, batch.py + i), second = corner(batch.qx + i, batch.qy + i), third = corner(batch.rx + i, batch.ry + i);
+  const Lanes area = hn::Sub(hn::Mul(hn::Sub(second.x, p.x), hn::Sub(third.y, p.y)), hn::Mul(hn::Sub(second.y, p.y), hn::Sub(third.x, p.x)));
+  const Bounds bounds = boundsOf(p, second, third, tile);
+  hn::Store(hn::DemoteTo(whole, bounds.x0), whole, batch.x0 + i);
+  hn::Store(hn::DemoteTo(whole, bounds.y0), whole, batch.y0 + i);
+  hn::Store(hn::DemoteTo(whole, bounds.x1), whole, batch.x1 + i);
+  hn::Store(hn::DemoteTo(whole, bounds.y1), whole, batch.y1 + i);
 
-    // Its area, but no more than half of the bounds.
-    const Lanes half = hn::Set(d, 0.5), one = hn::Set(d, 1);
-    const Lanes width = hn::Add(hn::Sub(bounds.x1, bounds.x0), one), height = hn::Add(hn::Sub(bounds.y1, bounds.y0), one);
-    const Lanes pixels = hn::Mul(hn::Abs(area), hn::Set(d, 0.5 / (std::int64_t{1} << (2 * tile.bits))));
-    const Lanes samples = hn::Min(pixels, hn::Mul(half, hn::Mul(width, height)));
-    hn::Store(hn::DemoteTo(whole, hn::Ceil(samples)), whole, batch.samples + i);
+  // Its area, but no more than half of the bounds.
+  const Lanes half = hn::Set(d, 0.5), one = hn::Set(d, 1);
+  const Lanes width = hn::Add(hn::Sub(bounds.x1, bounds.x0), one), height = hn::Add(hn::Sub(bounds.y1, bounds.y0), one);
+  const Lanes pixels = hn::Mul(hn::Abs(area), hn::Set(d, 0.5 / (std::int64_t{1} << (2 * tile.bits))));
+  const Lanes samples = hn::Min(pixels, hn::Mul(half, hn::Mul(width, height)));
+  hn::Store(hn::DemoteTo(whole, hn::Ceil(samples)), whole, batch.samples + i);
 
-    // Turned alike, the inner side of every edge is the positive one.
-    const auto front = hn::Lt(area, zero);
-    const Corner q{hn::IfThenElse(front, third.x, second.x), hn::IfThenElse(front, third.y, second.y)};
-    const Corner r{hn::IfThenElse(front, second.x, third.x), hn::IfThenElse(front, second.y, third.y)};
-    const auto holds = hn::And(hn::And(hn::Ne(area, zero), hn::Le(bounds.x0, bounds.x1)), hn::Le(bounds.y0, bounds.y1));
-    const auto pq = setUpEdge(p, q, bounds, tile, batch.a[0] + i, batch.b[0] + i, batch.c[0] + i);
-    const auto qr = setUpEdge(q, r, bounds, tile, batch.a[1] + i, batch.b[1] + i, batch.c[1] + i);
-    const auto rp = setUpEdge(r, p, bounds, tile, batch.a[2] + i, batch.b[2] + i, batch.c[2] + i);
-    const Lanes side = hn::IfThenElse(front, one, hn::Neg(one));
-    hn::Store(hn::DemoteTo(whole, hn::IfThenElseZero(hn::And(hn::And(holds, pq), hn::And(qr, rp)), side)), whole, batch.side + i);
+  // Turned alike, the inner side of every edge is the positive one.
+  const auto front = hn::Lt(area, zero);
+  const Corner q{hn::IfThenElse(front, third.x, second.x), hn::IfThenElse(front, third.y, second.y)};
+  const Corner r{hn::IfThenElse(front, second.x, third.x), hn::IfThenElse(front, second.y, third.y)};
+  const auto holds = hn::And(hn::And(hn::Ne(area, zero), hn::Le(bounds.x0, bounds.x1)), hn::Le(bounds.y0, bounds.y1));
+  const auto pq = setUpEdge(p, q, bounds, tile, batch.a[0] + i, batch.b[0] + i, batch.c[0] + i);
+  const auto qr = setUpEdge(q, r, bounds, tile, batch.a[1] + i, batch.b[1] + i, batch.c[1] + i);
+  const auto rp = setUpEdge(r, p, bounds, tile, batch.a[2] + i, batch.b[2] + i, batch.c[2] + i);
+  const Lanes side = hn::IfThenElse(front, one, hn::Neg(one));
+  hn::Store(hn::DemoteTo(whole, hn::IfThenElseZero(hn::And(hn::And(holds, pq), hn::And(qr, rp)), side)), whole, batch.side + i);
+}
+
+// The largest extent, in grid steps, of triangles whose areas and edge functions fit 32 bits: 2 · kShort² < 2^31.
+inline constexpr std::int32_t kShort = (1 << 15) - 1;
+
+struct ShortCorner {
+  hn::Vec<Samples> x, y;
+};
+
+// setUpEdge in whole numbers of 32 bits, at the first sample of the bounds.
+HWY_INLINE HWY_ATTR hn::Mask<Samples> setUpShortEdge(EdgeBatch& batch, int edge, int i, const ShortCorner& from, const ShortCorner& to, const TileFrame& tile) {
+  const Samples d;
+  const auto zero = hn::Zero(d), x0 = hn::Load(d, batch.x0 + i), y0 = hn::Load(d, batch.y0 + i);
+  const auto a = hn::Sub(from.y, to.y), b = hn::Sub(to.x, from.x);
+  const auto owns = hn::Or(hn::Gt(a, zero), hn::And(hn::Eq(a, zero), hn::Gt(b, zero)));
+  const auto across = hn::Sub(hn::ShiftLeftSame(hn::Add(x0, hn::Set(d, tile.x0)), tile.bits), from.x);
+  const auto down = hn::Sub(hn::ShiftLeftSame(hn::Add(y0, hn::Set(d, tile.y0)), tile.bits), from.y);
+  const auto first = hn::Sub(hn::Add(hn::Mul(a, across), hn::Mul(b, down)), hn::IfThenZeroElse(owns, hn::Set(d, 1)));
+  const auto e = hn::ShiftRightSame(first, tile.bits);
+  const auto toRight = hn::Mul(a, hn::Sub(hn::Load(d, batch.x1 + i), x0)), toBottom = hn::Mul(b, hn::Sub(hn::Load(d, batch.y1 + i), y0));
+  const auto needed = hn::Lt(hn::Add(e, hn::Add(hn::Min(toRight, zero), hn::Min(toBottom, zero))), zero);
+  const auto c = hn::Sub(e, hn::Add(hn::Mul(a, x0), hn::Mul(b, y0)));
+  hn::Store(hn::IfThenElseZero(needed, a), d, batch.a[edge] + i);
+  hn::Store(hn::IfThenElseZero(needed, b), d, batch.b[edge] + i);
+  hn::Store(hn::IfThenElseZero(needed, c), d, batch.c[edge] + i);
+  return hn::Not(hn::Lt(hn::Add(e, hn::Add(hn::Max(toRight, zero), hn::Max(toBottom, zero))), zero));
+}
+
+// setUpAny of twice as many triangles, in half the time or less, if all are short: false where they are not.
+HWY_INLINE HWY_ATTR bool setUpShort(EdgeBatch& batch, int i, const TileFrame& tile) {
+  const Samples d;
+  const hn::RebindToUnsigned<Samples> bits;
+  const auto zero = hn::Zero(d), one = hn::Set(d, 1);
+  const ShortCorner p{hn::Load(d, batch.px + i), hn::Load(d, batch.py + i)}, second{hn::Load(d, batch.qx + i), hn::Load(d, batch.qy + i)},
+      third{hn::Load(d, batch.rx + i), hn::Load(d, batch.ry + i)};
+  const auto left = hn::Min(hn::Min(p.x, second.x), third.x), right = hn::Max(hn::Max(p.x, second.x), third.x);
+  const auto top = hn::Min(hn::Min(p.y, second.y), third.y), bottom = hn::Max(hn::Max(p.y, second.y), third.y);
+  if (!hn::AllFalse(d, hn::Gt(hn::Max(hn::Sub(right, left), hn::Sub(bottom, top)), hn::Set(d, kShort)))) return false;
+
+  const auto first = [&](hn::Vec<Samples> least, int origin) HWY_ATTR {
+    const auto sample = hn::ShiftRightSame(hn::Add(least, hn::Set(d, (1 << tile.bits) - 1)), tile.bits);
+    return hn::Max(hn::Sub(sample, hn::Set(d, origin)), zero);
+  };
+  const auto last = [&](hn::Vec<Samples> most, int origin, int size) HWY_ATTR {
+    return hn::Min(hn::Sub(hn::ShiftRightSame(most, tile.bits), hn::Set(d, origin)), hn::Set(d, size - 1));
+  };
+  const auto x0 = first(left, tile.x0), y0 = first(top, tile.y0), x1 = last(right, tile.x0, tile.width), y1 = last(bottom, tile.y0, tile.height);
+  hn::Store(x0, d, batch.x0 + i);
+  hn::Store(y0, d, batch.y0 + i);
+  hn::Store(x1, d, batch.x1 + i);
+  hn::Store(y1, d, batch.y1 + i);
+
+  const auto area = hn::Sub(hn::Mul(hn::Sub(second.x, p.x), hn::Sub(third.y, p.y)), hn::Mul(hn::Sub(second.y, p.y), hn::Sub(third.x, p.x)));
+  const int halved = 2 * tile.bits + 1;
+  const auto pixels = hn::ShiftRightSame(hn::Add(hn::BitCast(bits, hn::Abs(area)), hn::Set(bits, (1u << halved) - 1)), halved);
+  const auto half = hn::ShiftRight<1>(hn::Add(hn::Mul(hn::Add(hn::Sub(x1, x0), one), hn::Add(hn::Sub(y1, y0), one)), one));
+  hn::Store(hn::Min(hn::BitCast(d, pixels), half), d, batch.samples + i);
+
+  const auto front = hn::Lt(area, zero);
+  const ShortCorner q{hn::IfThenElse(front, third.x, second.x), hn::IfThenElse(front, third.y, second.y)};
+  const ShortCorner r{hn::IfThenElse(front, second.x, third.x), hn::IfThenElse(front, second.y, third.y)};
+  const auto holds = hn::Not(hn::Or(hn::Eq(area, zero), hn::Or(hn::Lt(x1, x0), hn::Lt(y1, y0))));
+  const auto pq = setUpShortEdge(batch, 0, i, p, q, tile), qr = setUpShortEdge(batch, 1, i, q, r, tile), rp = setUpShortEdge(batch, 2, i, r, p, tile);
+  const auto side = hn::IfThenElse(front, one, hn::Set(d, -1));
+  hn::Store(hn::IfThenElseZero(hn::And(hn::And(holds, pq), hn::And(qr, rp)), side), d, batch.side + i);
+  return true;
+}
+
+HWY_ATTR void SetUpEdges(EdgeBatch& batch, int count, const TileFrame& tile) {
+  const int group = static_cast<int>(hn::Lanes(Samples())), lanes = static_cast<int>(hn::Lanes(Exact()));
+  for (int i = 0; i < count; i += group) {
+    if (!setUpShort(batch, i, tile)) {
+      for (int k = i; k < i + group; k += lanes) setUpAny(batch, k, tile);
+    }
+    coverSmall(batch, i);
+    for (int k = i; k < i + group; k += lanes) setUpDepths(batch, k, tile);
   }
-  for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(Samples()))) coverSmall(batch, i);
 }
 
 HWY_ATTR void ScaleDepths(std::span<TriangleSetup> setups, const DepthScale& scale) {

@@ -94,14 +94,6 @@ HWY_INLINE HWY_ATTR void rowKeys(const TriangleSetup& t, int x, int y, KeyFormat
 // A triangle whose bounds hold no more samples than a block is taken sample by sample, whatever blocks it lies in.
 HWY_INLINE bool isSmall(const TriangleSetup& t) { return t.covered || (t.x1 - t.x0 + 1) * (t.y1 - t.y0 + 1) <= kBlockPixels; }
 
-HWY_INLINE std::uint32_t blocksOf(const BlockRect& rect) {
-  std::uint32_t blocks = 0;
-  for (int by = rect.by0; by < rect.by1; ++by) {
-    for (int bx = rect.bx0; bx < rect.bx1; ++bx) blocks |= 1u << (by * kBlocksPerSide + bx);
-  }
-  return blocks;
-}
-
 // Pixels of a tile lie block by block: this is one's place, kBlockPixels times the block and the pixel in it.
 constexpr std::uint32_t placeOf(unsigned x, unsigned y) {
   const unsigned block = y / kBlockSize * kBlocksPerSide + x / kBlockSize;
@@ -136,7 +128,7 @@ HWY_INLINE HWY_ATTR void forEachCovered(unsigned x, unsigned y, std::uint64_t co
   }
 }
 
-// In windows of 8×8 from the corner of its bounds on: nearly every small triangle fits one.
+// In windows of 8×8 from the corner of its bounds on, of which nearly every small triangle needs one.
 template <class Visit>
 HWY_NOINLINE HWY_ATTR void visitWindows(const TriangleSetup& t, KeyFormat format, Visit visit) {
   const TriangleEdges& edges = *t.edges;
@@ -235,11 +227,12 @@ HWY_INLINE HWY_ATTR std::uint32_t largestOf(std::span<const std::uint32_t> count
 // A triangle adds one fragment to a pixel at most.
 HWY_ATTR bool CollectFragments(const TriangleSetup* triangles, std::size_t count, KeyFormat format, const BlockRect& rect,
                                std::uint32_t finished, FragmentGrid& grid) {
-  const std::uint32_t closed = ~(blocksOf(rect) & ~finished) & ((1u << kBlocksPerTile) - 1);
+  // Bounds of triangles do not reach beyond a tile.
+  const std::uint32_t closed = rect.count() == 1 ? ~(1u << (rect.by0 * kBlocksPerSide + rect.bx0)) : finished;
   while (count > 0) {
     const FragmentGrid::Room room = grid.room(largestOf(grid.counts()));
-    if (room.layers == 0) return false;
-    const std::size_t some = std::min(count, room.layers);
+    if (room.left == 0) return false;
+    const std::size_t some = std::min(count, room.left);
     collectInRoom(triangles, some, format, rect, closed, room);
     triangles += some, count -= some;
   }

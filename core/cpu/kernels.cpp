@@ -1,5 +1,5 @@
-// Large triangles block by block, their keys row by row; small ones sample by sample, in one window or as their set-up has found them. The hot code is in kernels-inl.h, compiled
-// once per target.
+// Large triangles block by block, their keys row by row; small ones sample by sample, in windows or as their set-up has found them. The hot code is
+// in kernels-inl.h, compiled once per target.
 #include "core/cpu/kernels.h"
 
 #include <algorithm>
@@ -53,21 +53,24 @@ void FragmentGrid::begin(const BlockRect& rect) {
   stride_ = isBlock ? kBlockPixels : kTileStride;
   origin_ = isBlock ? static_cast<std::uint32_t>(rect.by0 * kBlocksPerSide + rect.bx0) * kBlockPixels : 0;
   limitBytes_ = isBlock ? kUnlimited : budgetBytes_;
+  // What a block took beyond the budget is given back.
+  if (!isBlock && keys_.size() > budgetBytes_ / sizeof(std::uint64_t) + 1) keys_ = {};
   capacity_ = static_cast<std::uint32_t>(keys_.size() / stride_);
   std::fill(std::begin(counts_), std::end(counts_), 0u);
 }
 
 FragmentGrid::Room FragmentGrid::room(std::uint32_t used) {
   constexpr std::uint32_t kLeastRoom = 32;   // layers: finding out how many are in use should be rare
-  if (used + kLeastRoom > capacity_ && !grow(std::max(used + kLeastRoom, 2 * capacity_))) return {};
+  if (used + kLeastRoom > capacity_ && !grow(used + kLeastRoom)) return {};
   return {keys_.data(), counts_, stride_, origin_, capacity_ - used};
 }
 
-bool FragmentGrid::grow(std::size_t layers) {
-  const std::size_t size = layers * stride_;
-  if (size * sizeof(std::uint64_t) > limitBytes_) return false;
+bool FragmentGrid::grow(std::size_t least) {
+  const std::size_t most = limitBytes_ / (stride_ * sizeof(std::uint64_t));
+  if (least > most) return false;
+  const std::size_t layers = std::min(std::max(least, std::size_t{capacity_} * 2), most);
   // The last pixel's neighbour is read.
-  UninitializedVector<std::uint64_t> keys(size + 1);
+  UninitializedVector<std::uint64_t> keys(layers * stride_ + 1);
   std::copy_n(keys_.data(), std::size_t{capacity_} * stride_, keys.data());
   keys_.swap(keys);
   capacity_ = static_cast<std::uint32_t>(layers);

@@ -1,5 +1,5 @@
 // The inner loops of the tile renderer: coverage and depth keys, vectorised with run-time dispatch (Google Highway: AVX-512,
-// AVX2, SSE4, scalar). Every target gives the same bytes: coverage is exact integer arithmetic, and the depth of a lane is the same three
+// AVX2, SSE4, SSSE3, scalar). Every target gives the same bytes: coverage is exact integer arithmetic, and the depth of a lane is the same three
 // double operations whatever the width.
 //
 // A fragment is one 64-bit key: depth in the high bits, the triangle's slot in the tile in the low ones. Read as a positive double, keys
@@ -86,7 +86,7 @@ class FragmentGrid {
  public:
   explicit FragmentGrid(std::size_t budgetBytes) : budgetBytes_(budgetBytes) {}
 
-  // Empties it, for a tile or a block, to which the budget does not apply.
+  // Empties it, for a tile or for one block; the budget does not apply to a block.
   void begin(const BlockRect& rect);
   FragmentBlock block(int index) {
     const std::uint32_t place = static_cast<std::uint32_t>(index) * kBlockPixels;
@@ -99,7 +99,7 @@ class FragmentGrid {
     std::uint64_t* keys;
     std::uint32_t* counts;
     std::uint32_t stride, origin;
-    std::size_t layers;                      // that may be added to every pixel; 0: the budget is spent
+    std::size_t left;                        // layers that may be added to every pixel; 0: the budget is spent
   };
   Room room(std::uint32_t used);             // layers in use
 
@@ -107,7 +107,7 @@ class FragmentGrid {
   // Layers of a tile lie so far apart that those of a pixel do not compete for the same lines of a cache.
   static constexpr std::uint32_t kTileStride = kBlocksPerTile * kBlockPixels + 8;
 
-  bool grow(std::size_t layers);
+  bool grow(std::size_t least);              // to so many layers
 
   UninitializedVector<std::uint64_t> keys_;  // kept from tile to tile
   std::uint32_t counts_[kBlocksPerTile * kBlockPixels] = {};
@@ -116,7 +116,8 @@ class FragmentGrid {
   std::size_t budgetBytes_, limitBytes_ = 0;
 };
 
-// Appends the fragments of the triangles to the grid; blocks with a bit in `finished` are passed over. False when the grid could not grow.
+// Appends the fragments of the triangles to the grid, begun with the same rectangle: a tile or one block. Blocks with a bit in `finished` are
+// passed over. False when the grid could not grow.
 bool collectFragments(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint32_t finished,
                       FragmentGrid& grid);
 
@@ -134,8 +135,8 @@ class NearestGrid {
   struct Block {
     std::unique_ptr<std::uint64_t[]> keys;   // [k][64]
     std::uint32_t counts[kBlockPixels];      // fragments kept
-    std::uint32_t seen[kBlockPixels];   // fragments that came, kept or not
-    std::uint64_t doubtful;             // pixels in which keys leave open whether what was lost is nearer than what was kept
+    std::uint32_t seen[kBlockPixels];        // fragments that came, kept or not
+    std::uint64_t doubtful;                  // pixels in which keys leave open whether what was lost is nearer than what was kept
 
     FragmentBlock kept() { return {keys.get(), counts, kBlockPixels}; }
   };

@@ -21,7 +21,7 @@ void renderNearestTiles(const Frame& frame, MakeTake makeTake) {
     explicit Local(MakeTake& make) : take(make()) {}
     decltype(makeTake()) take;
     Tile tile;
-    std::vector<std::uint64_t> nearest = std::vector<std::uint64_t>(kBlocksPerTile * kBlockPixels);
+    std::vector<std::uint64_t> nearest = std::vector<std::uint64_t>(kBlocksPerTile * kBlockPixels + 1);   // as FragmentBlock
   };
   tbb::enumerable_thread_specific<std::unique_ptr<Local>> locals([&] { return std::make_unique<Local>(makeTake); });
   parallelFor(static_cast<std::size_t>(frame.tileCount()), 1, [&](std::size_t begin, std::size_t end) {

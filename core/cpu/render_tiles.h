@@ -174,6 +174,7 @@ class TileRenderer {
   }
 
   void drawRect(const BlockRect& rect) {
+    if (tile_.setups.empty()) return;
     grid_.begin(rect);
     double layers = fold_.needsWholeStack() ? 0 : 2 + 2 * fold_.leastFragments();
     const bool batches = layers > 0 && !keepsNearest() && tile_.layers() > kBatchesFrom * layers;
@@ -217,7 +218,6 @@ class TileRenderer {
         drawRect({bx, by, bx + 1, by + 1});
       }
     }
-    grid_ = FragmentGrid(options_.gridBudgetBytes);   // gives back what a block took beyond the budget
   }
 
   // True when every pixel of the rectangle has had enough.

@@ -1,4 +1,4 @@
-// Tile set-up: corners are gathered into batches for edges.h, depth functions follow triangle by triangle and are scaled to keys.
+// Tile set-up: corners and planes are gathered into batches for edges.h; depths are scaled to keys once all are known.
 #include "core/cpu/tile.h"
 
 #include <algorithm>

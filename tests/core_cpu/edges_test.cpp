@@ -56,6 +56,12 @@ bool holds(const cpu::EdgeBatch& batch, int i, int x, int y) {
   return true;
 }
 
+// As the bits tell of a small triangle.
+bool isCovered(const cpu::EdgeBatch& batch, int i, int x, int y) {
+  const int column = x - batch.x0[i], row = y - batch.y0[i];
+  return column >= 0 && column < 4 && row >= 0 && row < 4 && (batch.covered[i] >> (8 * row + column) & 1);
+}
+
 class Edges : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override { cpu::chooseSimd(GetParam()); }
@@ -63,17 +69,19 @@ class Edges : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(Edges, holdTheSamplesOfTheirTriangles) {
-  int covered = 0, none = 0;
-  for (const double size : {0.4, 3.0, 30.0, 1000.0}) {
+  int covered = 0, none = 0, known = 0;
+  for (const double size : {0.4, 1.2, 2.0, 3.0, 30.0, 1000.0}) {
     for (int count = 1; count <= cpu::kEdgeBatch; ++count) {
       const std::vector<Triangle> triangles = randomTriangles(count, size, static_cast<unsigned>(count));
       const cpu::EdgeBatch batch = setUp(triangles);
       for (int i = 0; i < count; ++i) {
         none += batch.side[i] == 0;
+        known += batch.side[i] != 0 && batch.covered[i] != 0;
         for (int y = 0; y < kTile.height; ++y) {
           for (int x = 0; x < kTile.width; ++x) {
             const bool expected = covers(triangles[i].corner, std::int64_t{kTile.x0 + x} << 12, std::int64_t{kTile.y0 + y} << 12);
             ASSERT_EQ(holds(batch, i, x, y), expected) << "size " << size << ", triangle " << i << " of " << count << " at " << x << ", " << y;
+            if (batch.side[i] != 0 && batch.covered[i] != 0) { ASSERT_EQ(isCovered(batch, i, x, y), expected) << "size " << size << ", triangle " << i; }
             covered += expected;
           }
         }
@@ -82,6 +90,7 @@ TEST_P(Edges, holdTheSamplesOfTheirTriangles) {
   }
   EXPECT_GT(covered, 50000);
   EXPECT_GT(none, 500);
+  EXPECT_GT(known, 500);
 }
 
 TEST_P(Edges, aDegenerateTriangleIsDroppedAndTheSideIsThatOfItsTurn) {

@@ -121,5 +121,29 @@ TEST(Fragments, aPixelIsFinishedOnceThoughALaterBatchSplitsItsTile) {
   }
 }
 
+// How many layers a grid takes.
+std::uint32_t layersOf(cpu::FragmentGrid& grid, const cpu::BlockRect& rect, std::uint32_t enough) {
+  grid.begin(rect);
+  std::uint32_t used = 0;
+  while (used < enough) {
+    const auto left = static_cast<std::uint32_t>(grid.room(used).left);
+    if (left == 0) break;
+    used += left;
+  }
+  return used;
+}
+
+TEST(FragmentGrid, aTileUsesItsBudgetToTheLastLayerAndABlockMayExceedIt) {
+  constexpr cpu::BlockRect kTile, kBlock{2, 1, 3, 2};
+  constexpr std::size_t kBudget = std::size_t{16} << 20, kLayerBytes = cpu::kBlocksPerTile * cpu::kBlockPixels * sizeof(std::uint64_t);
+  cpu::FragmentGrid grid(kBudget);
+  const std::uint32_t most = layersOf(grid, kTile, 100000);
+  EXPECT_LE(most * kLayerBytes, kBudget);
+  EXPECT_GT(most * kLayerBytes, kBudget * 49 / 50);
+  EXPECT_GE(layersOf(grid, kBlock, 100000), 100000u);
+  // What the block took is given back.
+  EXPECT_EQ(layersOf(grid, kTile, 100000), most);
+}
+
 }  // namespace
 }  // namespace copeel::test
