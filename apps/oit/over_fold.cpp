@@ -46,7 +46,7 @@ inline void OverFold::putColors(std::uint64_t pixels, const fold::BlendedPixel* 
     const fold::BlendedPixel* const from = blended + row * cpu::kBlockSize;
     for (; left; left &= left - 1) {
       const int k = std::countr_zero(left);
-      to[k] = from[k].bytes;
+      to[k] = from[k].rgb8();
     }
   }
 }
@@ -64,7 +64,7 @@ std::uint64_t OverFold::foldBlock(const cpu::FragmentBlock& block, const cpu::Ti
     const fold::BlendedPixel& from = blended[p];
     PixelResult result;
     result.color = {from.color[0], from.color[1], from.color[2]};
-    result.bytes = from.bytes;
+    result.bytes = from.rgb8();
     result.layers = result.largestGroup = 1;   // wanted of the z-buffer alone
     if (wantsNearest) result.nearest = nearestSeen(stackOf(block, p, tile));
     canvas_.put({x + p % cpu::kBlockSize, y + p / cpu::kBlockSize, 1, 1}, result, tile);

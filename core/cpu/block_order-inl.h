@@ -227,7 +227,7 @@ HWY_ATTR BlockOrder OrderOfBlock(const FragmentBlock& block, const Tile& tile) {
     const std::uint64_t* keys = block.keys + row * kBlockSize;
     const std::uint32_t most = largestOf(counts);
     if (most == 0) continue;
-    const Neighbours neighbours = closeNeighbours(keys, block.stride, most, tile);
+    const Neighbours neighbours = most > 1 ? closeNeighbours(keys, block.stride, most, tile) : Neighbours{};
     std::uint32_t open = neighbours.open;
     for (int k = 0; k < kBlockSize && tile.coarse; ++k) open |= std::uint32_t{stackOf(block, row * kBlockSize + k, tile).hasCoarse()} << k;
     std::uint32_t alike = 0xFE, filled = filledLanes(keys);

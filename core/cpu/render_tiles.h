@@ -261,23 +261,22 @@ class TileRenderer {
     const bool whole = limit == kNoLimit && !keepsNearest() && !narrows_;
     if (whole) foldCertain(block, b, x, y);
     const bool alike = whole && !done_[b] && sameStacks(block, tile_);
+    const std::uint64_t inImage = 0x0101010101010101ull * (0xFFu >> (kBlockSize - columns)) & ~std::uint64_t{0} >> (kBlockPixels - rows * kBlockSize);
     bool all = true;
-    for (int row = 0; row < rows; ++row) {
-      for (int column = 0; column < columns; ++column) {
-        const int p = row * kBlockSize + column;
-        if ((done_[b] >> p & 1) || (block.counts[p] == 0 && limit == kNoLimit)) continue;
-        PixelStack stack = stackOf(block, p, tile_);
-        if (narrows_) stack.before = window_.before(p);
-        if (walker_.walk(stack, x + column, y + row) == Walk::Finished) {
-          if (alike && p == 0 && walker_.remembers()) {
-            endAll({x, y, columns, rows});
-            return true;
-          }
-          fold_.endPixels({x + column, y + row, 1, 1});
-          done_[b] |= std::uint64_t{1} << p;
-        } else {
-          all = false;
+    for (std::uint64_t left = inImage & ~done_[b]; left; left &= left - 1) {
+      const int p = std::countr_zero(left), column = p % kBlockSize, row = p / kBlockSize;
+      if (block.counts[p] == 0 && limit == kNoLimit) continue;
+      PixelStack stack = stackOf(block, p, tile_);
+      if (narrows_) stack.before = window_.before(p);
+      if (walker_.walk(stack, x + column, y + row) == Walk::Finished) {
+        if (alike && p == 0 && walker_.remembers()) {
+          endAll({x, y, columns, rows});
+          return true;
         }
+        fold_.endPixels({x + column, y + row, 1, 1});
+        done_[b] |= std::uint64_t{1} << p;
+      } else {
+        all = false;
       }
     }
     return all;

@@ -20,6 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Channels = hn::CappedTag<double, 4>;
 using Floats = hn::Rebind<float, Channels>;
 using Ints = hn::Rebind<std::int32_t, Channels>;
+using Bytes = hn::Rebind<std::uint8_t, Channels>;
 
 inline constexpr std::size_t kParts = 4 / hn::MaxLanes(Channels());
 
@@ -43,22 +44,22 @@ HWY_INLINE HWY_ATTR void blendFragment(State& state, const glm::vec4& fragment) 
 // overResult and overLevels.
 HWY_INLINE HWY_ATTR void finishPixel(const State& state, const double* background, BlendedPixel& out) {
   const Channels d;
-  alignas(16) std::int32_t levels[4];
   for (std::size_t part = 0; part < kParts; ++part) {
     const std::size_t lane = part * hn::MaxLanes(d);
     const auto color = hn::Add(state.color[part], hn::Mul(hn::Load(d, background + lane), hn::Set(d, state.transmittance)));
     hn::StoreU(hn::DemoteTo(Floats(), color), Floats(), out.color + lane);
     const auto clamped = hn::Min(hn::Max(color, hn::Zero(d)), hn::Set(d, 255.0));
-    hn::Store(hn::DemoteTo(Ints(), hn::Add(clamped, hn::Set(d, 0.5 + 1.0 / 8589934592.0))), Ints(), levels + lane);
+    const auto levels = hn::DemoteTo(Ints(), hn::Add(clamped, hn::Set(d, 0.5 + 1.0 / 8589934592.0)));
+    hn::StoreU(hn::DemoteTo(Bytes(), levels), Bytes(), out.bytes + lane);
   }
-  out.bytes = {static_cast<std::uint8_t>(levels[0]), static_cast<std::uint8_t>(levels[1]), static_cast<std::uint8_t>(levels[2])};
 }
 
+template <bool kMayEnd>
 HWY_INLINE HWY_ATTR void blendDistinct(const OverBlock& from, int pixel, State& state) {
   const std::uint64_t* key = from.block.keys + pixel;
   for (std::uint32_t left = from.block.counts[pixel]; left > 0; --left, key += from.block.stride) {
     blendFragment(state, from.colors[from.format.slotOf(*key)]);
-    if (from.mayEnd && state.transmittance == 0.0) return;
+    if (kMayEnd && state.transmittance == 0.0) return;
   }
 }
 
@@ -92,7 +93,8 @@ HWY_ATTR std::uint64_t BlendBlock(const OverBlock& from, const cpu::BlockOrder& 
     State state;
     for (auto& part : state.color) part = hn::Zero(Channels());
     if (order.coplanar >> p & 1) coplanar |= std::uint64_t{blendRuns(from, p, state)} << p;
-    else blendDistinct(from, p, state);
+    else if (from.mayEnd) blendDistinct<true>(from, p, state);
+    else blendDistinct<false>(from, p, state);
     finishPixel(state, background, out[p]);
   }
   return coplanar;

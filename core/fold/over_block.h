@@ -13,8 +13,10 @@
 namespace copeel::fold {
 
 struct BlendedPixel {
-  float color[4];   // 0 … 255 over the background; the last is undefined
-  Rgb8 bytes;
+  float color[4];          // 0 … 255 over the background; the last is undefined
+  std::uint8_t bytes[4];   // of the colour
+
+  Rgb8 rgb8() const { return {bytes[0], bytes[1], bytes[2]}; }
 };
 
 struct OverBlock {
