@@ -27,9 +27,10 @@ struct ClassBatch {
   alignas(64) float lower[3][kSize] = {}, upper[3][kSize] = {};   // bounds
   alignas(64) float normalError[kSize] = {};
 
-  void set(std::size_t i, const PlaneClass& planeClass) {
+  void set(std::size_t i, const Scene& scene, const PlaneClass& planeClass) {
+    const glm::dvec3 p = pointOf(scene, planeClass);
     for (int k = 0; k < 3; ++k) {
-      normal[k][i] = planeClass.normal[k], point[k][i] = planeClass.point[k];
+      normal[k][i] = planeClass.normal[k], point[k][i] = p[k];
       lower[k][i] = planeClass.boundsMin[k], upper[k][i] = planeClass.boundsMax[k];
     }
     normalError[i] = planeClass.normalError;
@@ -151,12 +152,12 @@ HWY_INLINE HWY_ATTR void setPlanes(const ClassBatch& from, std::size_t i, const 
   hn::Store(above(hn::IfThenElse(known, hn::Add(evaluation, propagated), all(std::numeric_limits<double>::infinity()))), f, out.error + i);
 }
 
-HWY_ATTR void SetDepthPlanes(const PlaneClass* classes, std::size_t count, const DepthView& setup, DepthPlane* out) {
+HWY_ATTR void SetDepthPlanes(const Scene& scene, const PlaneClass* classes, std::size_t count, const DepthView& setup, DepthPlane* out) {
   ClassBatch batch;
   PlaneBatch planes;
   for (std::size_t begin = 0; begin < count; begin += ClassBatch::kSize) {
     const std::size_t size = count - begin < ClassBatch::kSize ? count - begin : ClassBatch::kSize;
-    for (std::size_t i = 0; i < size; ++i) batch.set(i, classes[begin + i]);
+    for (std::size_t i = 0; i < size; ++i) batch.set(i, scene, classes[begin + i]);
     for (std::size_t i = 0; i < size; i += hn::Lanes(F64())) setPlanes(batch, i, setup, planes);
     for (std::size_t i = 0; i < size; ++i) out[begin + i] = {planes.a[i], planes.b[i], planes.c[i], planes.lo[i], planes.hi[i], planes.error[i]};
   }

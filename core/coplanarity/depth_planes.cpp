@@ -38,7 +38,7 @@ DepthPlanes depthPlanes(const Scene& scene, const PlaneClasses& planes, const Vi
                         glm::length(view.down)};
   DepthPlanes result(planes.classes().size());
   parallelFor(result.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    HWY_DYNAMIC_DISPATCH(SetDepthPlanes)(planes.classes().data() + begin, end - begin, setup, result.data() + begin);
+    HWY_DYNAMIC_DISPATCH(SetDepthPlanes)(scene, planes.classes().data() + begin, end - begin, setup, result.data() + begin);
   });
   return result;
 }

@@ -47,7 +47,7 @@ void widen(PlaneClass& planeClass, const Box& box) {
 
 PlaneClass classOfOne(const FacetPlane& plane, std::uint32_t object) {
   constexpr float kInf = std::numeric_limits<float>::infinity();
-  PlaneClass result{plane.normal, plane.point, above(plane.error), object, plane.triangle, glm::vec3(kInf), glm::vec3(-kInf)};
+  PlaneClass result{plane.normal, above(plane.error), object, plane.triangle, glm::vec3(kInf), glm::vec3(-kInf)};
   widen(result, plane.box);
   return result;
 }
@@ -78,6 +78,7 @@ struct FacetKey {
 // A facet that is to find its class.
 struct Facet {
   PlaneClass alone;
+  glm::dvec3 point{0};   // of its plane
   FacetExtent extent;
   FacetRange range{0, 0};
   PlaneCells::Place place = 0;
@@ -85,8 +86,8 @@ struct Facet {
 
 // Every corner within the tolerance of the class's plane. The plane of the facet and its extent mostly tell without looking at the corners.
 bool agrees(const Scene& scene, const Facet& facet, const PlaneClass& planeClass, double tolerance) {
-  const glm::dvec3 point = planeClass.point, normal = facet.alone.normal;
-  const double at = std::abs(glm::dot(planeClass.normal, facet.alone.point - point));
+  const glm::dvec3 point = pointOf(scene, planeClass), normal = facet.alone.normal;
+  const double at = std::abs(glm::dot(planeClass.normal, facet.point - point));
   if (at > tolerance) return false;
   const glm::dvec3 turn = glm::dot(normal, planeClass.normal) < 0 ? normal + planeClass.normal : normal - planeClass.normal;
   if (at + facet.extent.flatness + glm::length(turn) * facet.extent.radius <= tolerance) return true;
@@ -183,7 +184,7 @@ class PlaneClasses::Former {
       for (std::size_t i = begin; i != end; ++i) {
         const PlaneClass& facet = alone[facets[i]];
         const double area = doubledArea(scene_.objects()[facet.object], facet.triangle);
-        keys[i] = {static_cast<float>(area), tieOf(facet.normal, offsetOf(facet.normal, facet.point)), facets[i]};
+        keys[i] = {static_cast<float>(area), tieOf(facet.normal, offsetOf(facet.normal, pointOf(scene_, facet))), facets[i]};
       }
     });
     parallelSort(keys.begin(), keys.end(), std::less<>());
@@ -234,10 +235,11 @@ class PlaneClasses::Former {
   Facet measured(std::size_t index, const PlaneClass* alone) const {
     Facet facet;
     facet.alone = alone[index];
+    facet.point = pointOf(scene_, facet.alone);
     const Object& object = scene_.objects()[facet.alone.object];
     facet.range = rangeOf(*object.mesh, facetOf(facet.alone.object, index));
-    facet.extent = extentOf(object, facet.range, facet.alone.normal, facet.alone.point);
-    facet.place = cells_.placeOf(facet.alone.normal, offsetOf(facet.alone.normal, facet.alone.point));
+    facet.extent = extentOf(object, facet.range, facet.alone.normal, facet.point);
+    facet.place = cells_.placeOf(facet.alone.normal, offsetOf(facet.alone.normal, facet.point));
     return facet;
   }
 
