@@ -118,7 +118,10 @@ class TileRenderer {
         const PixelStack stack = even_.stack(tile_);
         walker_.walk(stack, pixels.x, pixels.y);
         endAll(pixels);
-        countFragments(std::vector<std::uint32_t>(static_cast<std::size_t>(pixels.width) * pixels.height, stack.count));
+        std::uint32_t counts[kBlockPixels];
+        const int pixelCount = pixels.width * pixels.height;
+        std::fill_n(counts, pixelCount, stack.count);
+        countFragments({counts, static_cast<std::size_t>(pixelCount)});
       }
     }
   }
@@ -191,7 +194,7 @@ class TileRenderer {
     countFragments(grid_.counts());
   }
 
-  // Of pixels.
+  // counts: of some pixels.
   void countFragments(std::span<const std::uint32_t> counts) {
     std::uint64_t fragments = 0, captured = 0;
     std::uint32_t covered = 0, most = 0;
