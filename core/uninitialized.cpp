@@ -14,20 +14,20 @@
 #include <tbb/scalable_allocator.h>
 #endif
 
-namespace copeel::parallel {
+namespace copeel::memory {
 
 #ifndef COPEEL_SANITIZED
-void* takeMemory(std::size_t bytes) {
-  void* const memory = scalable_malloc(bytes);
-  if (!memory) throw std::bad_alloc();
-  return memory;
+void* take(std::size_t bytes) {
+  void* const taken = scalable_malloc(bytes);
+  if (!taken) throw std::bad_alloc();
+  return taken;
 }
 
-void giveMemory(void* memory) noexcept { scalable_free(memory); }
+void giveBack(void* taken) noexcept { scalable_free(taken); }
 #else
 // What is checked by a sanitizer comes from its own allocator.
-void* takeMemory(std::size_t bytes) { return ::operator new(bytes); }
-void giveMemory(void* memory) noexcept { ::operator delete(memory); }
+void* take(std::size_t bytes) { return ::operator new(bytes); }
+void giveBack(void* taken) noexcept { ::operator delete(taken); }
 #endif
 
-}  // namespace copeel::parallel
+}  // namespace copeel::memory

@@ -12,10 +12,10 @@
 
 namespace copeel {
 
-namespace parallel {
-void* takeMemory(std::size_t bytes);   // aligned for all types of C++'s own; throws std::bad_alloc
-void giveMemory(void* memory) noexcept;
-}  // namespace parallel
+namespace memory {
+void* take(std::size_t bytes);   // aligned for all types of C++'s own; throws std::bad_alloc
+void giveBack(void* taken) noexcept;
+}  // namespace memory
 
 template <class T>
 class UninitializedVector {
@@ -50,11 +50,11 @@ class UninitializedVector {
 
  private:
   struct Give {
-    void operator()(T* elements) const noexcept { parallel::giveMemory(elements); }
+    void operator()(T* elements) const noexcept { memory::giveBack(elements); }
   };
   static T* take(std::size_t size) {
     if (size > std::numeric_limits<std::size_t>::max() / sizeof(T)) throw std::bad_array_new_length();
-    return static_cast<T*>(parallel::takeMemory(size * sizeof(T)));
+    return static_cast<T*>(memory::take(size * sizeof(T)));
   }
 
   std::unique_ptr<T[], Give> elements_;

@@ -117,8 +117,7 @@ class OverFold {
     canvas_.put(rect, result_, *tile_);
   }
 
-  // Whole blocks at once (core/fold/fold.h). Layers and groups are counted pixel by pixel, but for the
-  // z-buffer's, which are 1.
+  // Whole blocks at once (core/fold/fold.h). Layers and groups are counted pixel by pixel; the z-buffer's are 1.
   std::uint64_t foldBlock(const cpu::FragmentBlock& block, const cpu::Tile& tile, const cpu::BlockOrder& order, int x, int y);
 
   // The z-buffer's tile, with a fragment a pixel at most.

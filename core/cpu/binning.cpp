@@ -96,10 +96,10 @@ void binChunk(const Scene& scene, const View& view, const Projection& projection
   const TileGrid grid{projection.grid.bits, view.width, view.height, columns};
   CornerBatch batch;
   std::vector<ClippedTriangle> pieces;
-  const auto binOne = [&](std::uint32_t primitive, const glm::ivec2& p, const glm::ivec2& q, const glm::ivec2& r, std::uint32_t of) {
+  const auto binOne = [&](std::uint32_t primitive, const glm::ivec2& p, const glm::ivec2& q, const glm::ivec2& r) {
     if (p.x != kOffGrid && q.x != kOffGrid && r.x != kOffGrid) return binner.add(p, q, r, primitive);
     pieces.clear();
-    clipTriangle(scene, view, projection.grid, of, primitive, pieces);
+    clipTriangle(scene, view, projection.grid, object, primitive, pieces);
     for (const ClippedTriangle& piece : pieces) {
       // The reference is relative to the chunk until the chunks are joined.
       binner.add(piece.corners[0], piece.corners[1], piece.corners[2], kPrimitiveLimit + static_cast<std::uint32_t>(out.clipped.size()));
@@ -122,7 +122,7 @@ void binChunk(const Scene& scene, const View& view, const Projection& projection
       const std::uint32_t first = scene.firstPrimitive(object) + triangle;
       for (std::uint32_t i = 0; i < count; ++i) {
         if (batch.tile[i] >= 0) out.entries.push_back({static_cast<std::uint32_t>(batch.tile[i]), first + i});
-        else if (batch.tile[i] == kManyTiles) binOne(first + i, {batch.px[i], batch.py[i]}, {batch.qx[i], batch.qy[i]}, {batch.rx[i], batch.ry[i]}, object);
+        else if (batch.tile[i] == kManyTiles) binOne(first + i, {batch.px[i], batch.py[i]}, {batch.qx[i], batch.qy[i]}, {batch.rx[i], batch.ry[i]});
       }
     }
   }
