@@ -26,9 +26,22 @@ struct ClassBatch {
   alignas(64) double normal[3][kSize] = {}, point[3][kSize] = {};
   alignas(64) float lower[3][kSize] = {}, upper[3][kSize] = {};   // bounds
   alignas(64) float normalError[kSize] = {};
+  glm::dmat4 worldFromPoint{1.0};
 
-  void set(std::size_t i, const Scene& scene, const PlaneClass& planeClass) {
-    const glm::dvec3 p = pointOf(scene, planeClass);
+  // Points of one object, as nearly all are, are left for a vector to place.
+  void set(const Scene& scene, std::span<const PlaneClass> classes) {
+    const std::uint32_t first = classes.front().object;
+    bool isOne = true;
+    for (const PlaneClass& planeClass : classes) isOne &= planeClass.object == first;
+    const Mesh& mesh = *scene.objects()[first].mesh;
+    worldFromPoint = isOne ? scene.objects()[first].worldFromObject : glm::dmat4(1.0);
+    for (std::size_t i = 0; i < classes.size(); ++i) {
+      put(i, classes[i], isOne ? mesh.vertices[mesh.triangles[classes[i].triangle].x] : pointOf(scene, classes[i]));
+    }
+  }
+
+ private:
+  void put(std::size_t i, const PlaneClass& planeClass, const glm::dvec3& p) {
     for (int k = 0; k < 3; ++k) {
       normal[k][i] = planeClass.normal[k], point[k][i] = p[k];
       lower[k][i] = planeClass.boundsMin[k], upper[k][i] = planeClass.boundsMax[k];
@@ -87,6 +100,14 @@ HWY_INLINE HWY_ATTR V3 promote3(const float (&from)[3][ClassBatch::kSize], std::
 HWY_INLINE HWY_ATTR V dot(const V3& a, const glm::dvec3& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, all(b.x)), hn::Mul(a.y, all(b.y))), hn::Mul(a.z, all(b.z)));
 }
+// transformPoint.
+HWY_INLINE HWY_ATTR V3 transformed(const glm::dmat4& m, const V3& p) {
+  const auto row = [&](int i) HWY_ATTR {
+    return hn::Add(hn::Add(hn::Add(hn::Mul(all(m[0][i]), p.x), hn::Mul(all(m[1][i]), p.y)), hn::Mul(all(m[2][i]), p.z)), all(m[3][i]));
+  };
+  return {row(0), row(1), row(2)};
+}
+
 HWY_INLINE HWY_ATTR V dot(const V3& a, const V3& b) { return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z)); }
 
 // The next float after a rounded value: floats of one sign are ordered as their bits.
@@ -128,7 +149,7 @@ HWY_INLINE HWY_ATTR void setPlanes(const ClassBatch& from, std::size_t i, const 
   const View& view = setup.view;
   setRange(from, i, setup, out);
   const V lo = hn::PromoteTo(d, hn::Load(f, out.lo + i)), hi = hn::PromoteTo(d, hn::Load(f, out.hi + i));
-  const V3 n = load3(from.normal, i), point = load3(from.point, i);
+  const V3 n = load3(from.normal, i), point = transformed(from.worldFromPoint, load3(from.point, i));
   const V3 p{hn::Sub(point.x, all(view.eye.x)), hn::Sub(point.y, all(view.eye.y)), hn::Sub(point.z, all(view.eye.z))};
   const V alongPoint = dot(n, p), alongForward = dot(n, view.forward);
   const V unit = hn::Add(hn::PromoteTo(d, hn::Load(f, from.normalError + i)), all(8 * kEps));   // error of a dot product with n, per length of the other vector
@@ -157,7 +178,7 @@ HWY_ATTR void SetDepthPlanes(const Scene& scene, const PlaneClass* classes, std:
   PlaneBatch planes;
   for (std::size_t begin = 0; begin < count; begin += ClassBatch::kSize) {
     const std::size_t size = count - begin < ClassBatch::kSize ? count - begin : ClassBatch::kSize;
-    for (std::size_t i = 0; i < size; ++i) batch.set(i, scene, classes[begin + i]);
+    batch.set(scene, {classes + begin, size});
     for (std::size_t i = 0; i < size; i += hn::Lanes(F64())) setPlanes(batch, i, setup, planes);
     for (std::size_t i = 0; i < size; ++i) out[begin + i] = {planes.a[i], planes.b[i], planes.c[i], planes.lo[i], planes.hi[i], planes.error[i]};
   }

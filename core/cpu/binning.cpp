@@ -138,7 +138,7 @@ Bins binTriangles(const Scene& scene, const View& view, const Projection& projec
   std::vector<ChunkBins> parts(chunks.size());
   parallelFor(chunks.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i) {
-      parts[i].entries.reserve(chunks[i].count);
+      parts[i].entries.reserve(chunks[i].count + chunks[i].count / 4);   // some lie in several tiles
       binChunk(scene, view, projection, chunks[i], bins.columns, parts[i]);
     }
   });

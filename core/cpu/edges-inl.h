@@ -144,8 +144,31 @@ HWY_INLINE HWY_ATTR void coverSmall(EdgeBatch& batch, int i) {
   hn::Store(hn::IfThenElse(small, count, hn::Load(d, batch.samples + i)), d, batch.samples + i);
 }
 
+// DepthExtent, lane by lane.
+struct Extents {
+  Lanes least, most, leastError, mostError, samples;
+
+  HWY_INLINE HWY_ATTR explicit Extents(const DepthExtent& from) {
+    const Exact d;
+    least = hn::Set(d, from.least), most = hn::Set(d, from.most);
+    leastError = hn::Set(d, from.leastError), mostError = hn::Set(d, from.mostError);
+    samples = hn::Zero(d);
+  }
+  HWY_INLINE HWY_ATTR void add(hn::Mask<Exact> which, Lanes from, Lanes to, Lanes error, Lanes count) {
+    least = hn::IfThenElse(which, hn::Min(least, from), least), most = hn::IfThenElse(which, hn::Max(most, to), most);
+    leastError = hn::IfThenElse(which, hn::Min(leastError, error), leastError), mostError = hn::IfThenElse(which, hn::Max(mostError, error), mostError);
+    samples = hn::Add(samples, hn::IfThenElseZero(which, count));
+  }
+  HWY_INLINE HWY_ATTR void addTo(DepthExtent& to) const {
+    const Exact d;
+    to.least = hn::GetLane(hn::MinOfLanes(d, least)), to.most = hn::GetLane(hn::MaxOfLanes(d, most));
+    to.leastError = hn::GetLane(hn::MinOfLanes(d, leastError)), to.mostError = hn::GetLane(hn::MaxOfLanes(d, mostError));
+    to.samples += static_cast<std::int64_t>(hn::GetLane(hn::SumOfLanes(d, samples)));
+  }
+};
+
 // Depths that the planes reach within the bounds.
-HWY_INLINE HWY_ATTR void setUpDepths(EdgeBatch& batch, int i, const TileFrame& tile) {
+HWY_INLINE HWY_ATTR void setUpDepths(EdgeBatch& batch, int i, const TileFrame& tile, Extents& extents) {
   const Exact d;
   const hn::Rebind<float, Exact> f;
   const Corner first = corner(batch.x0 + i, batch.y0 + i), last = corner(batch.x1 + i, batch.y1 + i);
@@ -157,9 +180,15 @@ HWY_INLINE HWY_ATTR void setUpDepths(EdgeBatch& batch, int i, const TileFrame& t
   hn::Store(dc, d, batch.dc + i);
   hn::Store(lo, d, batch.lo + i);
   hn::Store(hi, d, batch.hi + i);
-  hn::Store(clamped(hn::Add(hn::Add(dc, hn::Min(left, right)), hn::Min(top, bottom))), d, batch.least + i);
-  hn::Store(clamped(hn::Add(hn::Add(dc, hn::Max(left, right)), hn::Max(top, bottom))), d, batch.most + i);
-  hn::Store(hn::PromoteTo(d, hn::Load(f, batch.planeError + i)), d, batch.error + i);
+  const Lanes least = clamped(hn::Add(hn::Add(dc, hn::Min(left, right)), hn::Min(top, bottom)));
+  const Lanes most = clamped(hn::Add(hn::Add(dc, hn::Max(left, right)), hn::Max(top, bottom)));
+  const Lanes error = hn::PromoteTo(d, hn::Load(f, batch.planeError + i));
+  hn::Store(least, d, batch.least + i);
+  hn::Store(most, d, batch.most + i);
+  hn::Store(error, d, batch.error + i);
+  const Whole whole;
+  const auto isSetUp = hn::Ne(hn::PromoteTo(d, hn::Load(whole, batch.side + i)), hn::Zero(d));
+  extents.add(isSetUp, least, most, error, hn::PromoteTo(d, hn::Load(whole, batch.samples + i)));
 }
 
 // Of any triangles. Their edges and bounds, at as many places from i on as doubles have lanes.
@@ -262,13 +291,17 @@ HWY_INLINE HWY_ATTR bool setUpShort(EdgeBatch& batch, int i, const TileFrame& ti
 
 HWY_ATTR void SetUpEdges(EdgeBatch& batch, int count, const TileFrame& tile) {
   const int group = static_cast<int>(hn::Lanes(Samples())), lanes = static_cast<int>(hn::Lanes(Exact()));
+  // What a vector holds beyond the last triangle is none.
+  for (int i = count; i % group != 0; ++i) batch.px[i] = batch.py[i] = batch.qx[i] = batch.qy[i] = batch.rx[i] = batch.ry[i] = 0;
+  Extents extents(batch.extent);
   for (int i = 0; i < count; i += group) {
     if (!setUpShort(batch, i, tile)) {
       for (int k = i; k < i + group; k += lanes) setUpAny(batch, k, tile);
     }
     coverSmall(batch, i);
-    for (int k = i; k < i + group; k += lanes) setUpDepths(batch, k, tile);
+    for (int k = i; k < i + group; k += lanes) setUpDepths(batch, k, tile, extents);
   }
+  extents.addTo(batch.extent);
 }
 
 HWY_ATTR void ScaleDepths(std::span<TriangleSetup> setups, const DepthScale& scale) {

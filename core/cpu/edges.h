@@ -5,7 +5,9 @@
 // algorithm for polygon rasterization. SIGGRAPH 1988.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "core/cpu/kernels.h"
@@ -13,6 +15,18 @@
 namespace copeel::cpu {
 
 inline constexpr int kEdgeBatch = 32;   // triangles; a multiple of every target's lanes
+
+// Of some triangles together.
+struct DepthExtent {
+  double least = std::numeric_limits<double>::infinity(), most = -least;   // order values, without their errors
+  double leastError = least, mostError = 0;
+  std::int64_t samples = 0;                                               // EdgeBatch::samples
+  void add(double from, double to, double error, std::int64_t count) {
+    least = std::min(least, from), most = std::max(most, to);
+    leastError = std::min(leastError, error), mostError = std::max(mostError, error);
+    samples += count;
+  }
+};
 
 struct EdgeBatch {
   // In: corners, grid coordinates.
@@ -32,6 +46,7 @@ struct EdgeBatch {
   alignas(64) std::int32_t a[3][kEdgeBatch], b[3][kEdgeBatch], c[3][kEdgeBatch];
   // Out: the order value is clamp(planeA·x + planeB·y + dc, lo, hi) at sample (x, y); what it can be within the bounds.
   alignas(64) double dc[kEdgeBatch], lo[kEdgeBatch], hi[kEdgeBatch], least[kEdgeBatch], most[kEdgeBatch], error[kEdgeBatch];
+  DepthExtent extent;   // In, out: grows by what these triangles reach.
 };
 
 struct TileFrame {

@@ -14,9 +14,9 @@ struct Frame {
   const Scene& scene;
   const PlaneClasses& planes;
   const View& view;
-  DepthPlanes depths;
   Projection projection;
   Bins bins;
+  DepthPlanes depths;
 
   int tileCount() const { return bins.columns * bins.rows; }
 };

@@ -24,32 +24,45 @@ using U64 = hn::CappedTag<std::uint64_t, kBlockSize>;
 alignas(64) inline constexpr double kIota[kBlockSize] = {0, 1, 2, 3, 4, 5, 6, 7};
 alignas(64) inline constexpr std::int32_t kIotaInt[kBlockSize] = {0, 1, 2, 3, 4, 5, 6, 7};
 
-// Samples of 8×8 from (x, y) on that the triangle's bounds hold: rows y0 … y1, and their columns in every row.
+// Samples of 8×8 that a triangle's bounds hold: rows y0 … y1, and their columns in every row.
 struct Within {
   int y0, y1;
   std::uint64_t columns;
 
-  HWY_INLINE Within(const TriangleSetup& t, int x, int y) {
-    const int x0 = t.x0 > x ? t.x0 - x : 0, x1 = t.x1 - x < kBlockSize - 1 ? t.x1 - x : kBlockSize - 1;
-    y0 = t.y0 > y ? t.y0 - y : 0, y1 = t.y1 - y < kBlockSize - 1 ? t.y1 - y : kBlockSize - 1;
-    columns = ((0xFFull >> (7 - x1 + x0)) << x0) * 0x0101010101010101ull;
-  }
   HWY_INLINE std::uint64_t all() const { return columns & (~std::uint64_t{0} >> (kBlockSize * (7 - y1 + y0))) << (kBlockSize * y0); }
 };
 
-// Bit x of row y (bit 8·y + x) is set where all three edges are not negative. e: the edges at the first of 8×8 samples. Edges that the
-// triangle's bounds make redundant were dropped, so the bounds count.
-HWY_INLINE HWY_ATTR std::uint64_t coverage(const TriangleEdges& edges, const std::int32_t (&e)[3], const Within& within) {
+inline constexpr std::uint64_t kFirstColumn = 0x0101010101010101ull;
+
+// From (x, y) on.
+HWY_INLINE Within within(const TriangleSetup& t, int x, int y) {
+  const int x0 = t.x0 > x ? t.x0 - x : 0, x1 = t.x1 - x < kBlockSize - 1 ? t.x1 - x : kBlockSize - 1;
+  const int y0 = t.y0 > y ? t.y0 - y : 0, y1 = t.y1 - y < kBlockSize - 1 ? t.y1 - y : kBlockSize - 1;
+  return {y0, y1, ((0xFFull >> (7 - x1 + x0)) << x0) * kFirstColumn};
+}
+
+// The same where the bounds begin at (x, y) or before.
+HWY_INLINE Within withinRest(const TriangleSetup& t, int x, int y) {
+  const int x1 = t.x1 - x < kBlockSize - 1 ? t.x1 - x : kBlockSize - 1, y1 = t.y1 - y < kBlockSize - 1 ? t.y1 - y : kBlockSize - 1;
+  return {0, y1, (0xFFull >> (7 - x1)) * kFirstColumn};
+}
+
+// Of 8×8 samples from (x, y) on: bit 8·row + column is set where all three edges are not negative. Edges that the triangle's bounds make redundant were
+// dropped, so the bounds count.
+HWY_INLINE HWY_ATTR std::uint64_t coverage(const TriangleEdges& edges, int x, int y, const Within& bounds) {
   const I32 d;
   const std::size_t lanes = hn::Lanes(d);
+  const auto ys = hn::Set(d, y + bounds.y0);
   std::uint64_t bits = 0;
   for (std::size_t lane = 0; lane < kBlockSize; lane += lanes) {
-    const auto iota = hn::Load(d, kIotaInt + lane);
-    auto e0 = hn::Add(hn::Set(d, e[0] + edges.b[0] * within.y0), hn::Mul(hn::Set(d, edges.a[0]), iota));
-    auto e1 = hn::Add(hn::Set(d, e[1] + edges.b[1] * within.y0), hn::Mul(hn::Set(d, edges.a[1]), iota));
-    auto e2 = hn::Add(hn::Set(d, e[2] + edges.b[2] * within.y0), hn::Mul(hn::Set(d, edges.a[2]), iota));
+    const auto xs = hn::Add(hn::Set(d, x), hn::Load(d, kIotaInt + lane));
     const auto b0 = hn::Set(d, edges.b[0]), b1 = hn::Set(d, edges.b[1]), b2 = hn::Set(d, edges.b[2]);
-    for (int row = within.y0; row <= within.y1; ++row) {
+    auto e0 = hn::Add(hn::Add(hn::Mul(hn::Set(d, edges.a[0]), xs), hn::Mul(b0, ys)), hn::Set(d, edges.c[0]));
+    auto e1 = hn::Add(hn::Add(hn::Mul(hn::Set(d, edges.a[1]), xs), hn::Mul(b1, ys)), hn::Set(d, edges.c[1]));
+    auto e2 = hn::Add(hn::Add(hn::Mul(hn::Set(d, edges.a[2]), xs), hn::Mul(b2, ys)), hn::Set(d, edges.c[2]));
+    // Unrolled, it costs small triangles more than it saves.
+#pragma GCC unroll 1
+    for (int row = bounds.y0; row <= bounds.y1; ++row) {
       const auto outside = hn::Lt(hn::Or(hn::Or(e0, e1), e2), hn::Zero(d));
       std::uint8_t byte[8] = {};
       hn::StoreMaskBits(d, hn::Not(outside), byte);
@@ -57,22 +70,21 @@ HWY_INLINE HWY_ATTR std::uint64_t coverage(const TriangleEdges& edges, const std
       e0 = hn::Add(e0, b0), e1 = hn::Add(e1, b1), e2 = hn::Add(e2, b2);
     }
   }
-  return bits & within.columns;
+  return bits & bounds.columns;
 }
 
 // Of a block. x, y: its first pixel in the tile.
 HWY_INLINE HWY_ATTR std::uint64_t blockCoverage(const TriangleSetup& t, int x, int y) {
   const TriangleEdges& edges = *t.edges;
-  std::int32_t e[3];
   bool full = true;
   for (int i = 0; i < 3; ++i) {
-    e[i] = edges.a[i] * x + edges.b[i] * y + edges.c[i];
+    const std::int32_t first = edges.a[i] * x + edges.b[i] * y + edges.c[i];
     const std::int32_t across = (kBlockSize - 1) * edges.a[i], down = (kBlockSize - 1) * edges.b[i];
-    if (e[i] + (across > 0 ? across : 0) + (down > 0 ? down : 0) < 0) return 0;
-    full &= e[i] + (across < 0 ? across : 0) + (down < 0 ? down : 0) >= 0;
+    if (first + (across > 0 ? across : 0) + (down > 0 ? down : 0) < 0) return 0;
+    full &= first + (across < 0 ? across : 0) + (down < 0 ? down : 0) >= 0;
   }
-  const Within within(t, x, y);
-  return full ? within.all() : coverage(edges, e, within);
+  const Within bounds = within(t, x, y);
+  return full ? bounds.all() : coverage(edges, x, y, bounds);
 }
 
 // keyAt of so many pixels of a row. x, y: the first one in the tile.
@@ -128,6 +140,13 @@ HWY_INLINE HWY_ATTR void forEachCovered(unsigned x, unsigned y, std::uint64_t co
   }
 }
 
+// Keys of rows 0 … last, kBlockSize apart, from (x, y) on.
+template <int kCount>
+HWY_INLINE HWY_ATTR void keysOfRows(const TriangleSetup& t, int x, int y, int last, KeyFormat format, std::uint64_t* keys) {
+#pragma GCC unroll 1
+  for (int row = 0; row <= last; ++row) rowKeys<kCount>(t, x, y + row, format, keys + kBlockSize * row);
+}
+
 // In windows of 8×8 from the corner of its bounds on, of which nearly every small triangle needs one.
 template <class Visit>
 HWY_NOINLINE HWY_ATTR void visitWindows(const TriangleSetup& t, KeyFormat format, Visit visit) {
@@ -135,11 +154,10 @@ HWY_NOINLINE HWY_ATTR void visitWindows(const TriangleSetup& t, KeyFormat format
   alignas(64) std::uint64_t keys[kBlockPixels];
   for (int y = t.y0; y <= t.y1; y += kBlockSize) {
     for (int x = t.x0; x <= t.x1; x += kBlockSize) {
-      std::int32_t e[3];
-      for (int i = 0; i < 3; ++i) e[i] = edges.a[i] * x + edges.b[i] * y + edges.c[i];
-      const Within within(t, x, y);
-      const std::uint64_t covered = coverage(edges, e, within);
-      for (int row = 0; row <= within.y1; ++row) rowKeys<kBlockSize>(t, x, y + row, format, keys + kBlockSize * row);
+      const Within bounds = withinRest(t, x, y);
+      const std::uint64_t covered = coverage(edges, x, y, bounds);
+      if (t.x1 - x < 4) keysOfRows<4>(t, x, y, bounds.y1, format, keys);
+      else keysOfRows<kBlockSize>(t, x, y, bounds.y1, format, keys);
       forEachCovered(static_cast<unsigned>(x), static_cast<unsigned>(y), covered, keys, visit);
     }
   }
@@ -150,7 +168,7 @@ template <class Visit>
 HWY_INLINE HWY_ATTR void forEachSample(const TriangleSetup& t, KeyFormat format, Visit visit) {
   if (!t.covered) return visitWindows(t, format, visit);
   alignas(64) std::uint64_t keys[4 * kBlockSize];
-  for (int row = 0, last = t.y1 - t.y0; row <= last; ++row) rowKeys<4>(t, t.x0, t.y0 + row, format, keys + kBlockSize * row);
+  keysOfRows<4>(t, t.x0, t.y0, t.y1 - t.y0, format, keys);
   forEachCovered(t.x0, t.y0, t.covered, keys, visit);
 }
 

@@ -35,8 +35,8 @@ std::uint32_t primitiveOf(const Frame& frame, std::uint32_t reference) {
 }  // namespace
 
 Frame::Frame(const Scene& scene_, const PlaneClasses& planes_, const View& view_)
-    : scene(scene_), planes(planes_), view(view_), depths(depthPlanes(scene_, planes_, view_)),
-      projection(project(scene_, view_)), bins(binTriangles(scene_, view_, projection)) {}
+    : scene(scene_), planes(planes_), view(view_), projection(project(scene_, view_)),
+      bins(binTriangles(scene_, view_, projection)), depths(depthPlanes(scene_, planes_, view_)) {}
 
 void Tile::begin(const Frame& frame, int index) {
   x0 = index % frame.bins.columns * kTileSize;
@@ -48,16 +48,16 @@ void Tile::begin(const Frame& frame, int index) {
   slots = {};
   setups = {};
   nearest.clear();
-  std::uint32_t end = 0;   // first primitive after the current object
-  for (std::uint32_t i = 0; i < references_.size(); ++i) {
-    const std::uint32_t reference = references_[i];
-    const std::uint32_t primitive = primitiveOf(frame, reference);
-    if (primitive >= end) {
-      const std::uint32_t object = frame.scene.objectOf(primitive);
-      end = object + 1 < frame.scene.objects().size() ? frame.scene.firstPrimitive(object + 1) : kPrimitiveLimit;
-      objects.push_back({object, i, i});
-    }
-    objects.back().lastReference = i + 1;
+  for (std::size_t i = 0; i < references_.size(); i = objects.back().lastReference) {
+    const std::uint32_t object = frame.scene.objectOf(primitiveOf(frame, references_[i]));
+    const bool isLast = object + 1 == frame.scene.objects().size();
+    const std::uint32_t end = isLast ? kPrimitiveLimit : frame.scene.firstPrimitive(object + 1);
+    const auto isOfObject = [&](std::uint32_t reference) { return primitiveOf(frame, reference) < end; };
+    std::size_t step = 1;
+    while (step < references_.size() - i && isOfObject(references_[i + step])) step *= 2;
+    const auto some = references_.subspan(i + step / 2, std::min(step, references_.size() - i) - step / 2);
+    const auto past = static_cast<std::size_t>(std::partition_point(some.begin(), some.end(), isOfObject) - references_.begin());
+    objects.push_back({object, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(past)});
   }
 }
 
@@ -70,10 +70,7 @@ void Tile::setUp(const Frame& frame) {
   makeRoom(edgeRoom_);
   makeRoom(ranges_);
   count_ = edgeCount_ = 0;
-  samples_ = 0;
-  depths_ = {};
-  leastError_ = std::numeric_limits<double>::infinity();
-  mostError_ = 0;
+  edges_.extent = {};
   int count = 0;
   for (std::uint32_t i = 0; i < objects.size(); ++i) {
     TileObject& object = objects[i];
@@ -93,6 +90,7 @@ void Tile::setUp(const Frame& frame) {
   setUpBatch(frame, count);
   slots = {slotRoom_.data(), count_};
   setups = {setupRoom_.data(), count_};
+  extent_ = edges_.extent;
 }
 
 // Corners to the places of the batch from `at` on. Most of what is read lies far away: each step reads what the one before has found for all of them,
@@ -131,35 +129,38 @@ void Tile::setUpBatch(const Frame& frame, int count) {
   const double u = x0 + 0.5 + frame.view.offset.x - frame.view.width * 0.5;
   const double v = y0 + 0.5 + frame.view.offset.y - frame.view.height * 0.5;
   setUpEdges(edges_, count, {x0, y0, width, height, frame.projection.grid.bits, u, v});
+  std::size_t at = count_, edgesAt = edgeCount_;   // local ones stay in registers
+  TileSlot* const slotsHere = slotRoom_.data();
+  TriangleSetup* const setupsHere = setupRoom_.data();
+  TriangleEdges* const edgesHere = edgeRoom_.data();
+  SetupRange* const rangesHere = ranges_.data();
   for (int i = 0; i < count; ++i) {
     if (edges_.side[i] == 0) continue;
-    addSetup(i);
-    TileSlot& slot = slotRoom_[count_++] = gathered_[i];
-    slot.side *= edges_.side[i];
+    slotsHere[at] = gathered_[i];
+    slotsHere[at].side *= edges_.side[i];
+    rangesHere[at] = {edges_.least[i], edges_.most[i], edges_.error[i]};
+    putSetup(i, static_cast<std::uint32_t>(at), setupsHere[at]);
+    if (!edges_.covered[i]) putEdges(i, edgesHere[edgesAt]), setupsHere[at].edges = &edgesHere[edgesAt++];
+    ++at;
   }
+  count_ = at;
+  edgeCount_ = edgesAt;
 }
 
-// Its depth in order values yet.
-inline void Tile::addSetup(int at) {
-  TriangleSetup& t = setupRoom_[count_];
-  t.edges = nullptr;
-  if (!edges_.covered[at]) {
-    TriangleEdges& edges = edgeRoom_[edgeCount_++];
-    for (int k = 0; k < 3; ++k) edges.a[k] = edges_.a[k][at], edges.b[k] = edges_.b[k][at], edges.c[k] = edges_.c[k][at];
-    t.edges = &edges;
-  }
-  const auto bounds = static_cast<std::uint32_t>(edges_.bounds[at]);
+// Of the triangle at a place of the batch. Its depth in order values yet.
+inline void Tile::putSetup(int i, std::uint32_t slot, TriangleSetup& t) const {
+  const auto bounds = static_cast<std::uint32_t>(edges_.bounds[i]);
   t.x0 = static_cast<std::uint8_t>(bounds), t.y0 = static_cast<std::uint8_t>(bounds >> 8);
   t.x1 = static_cast<std::uint8_t>(bounds >> 16), t.y1 = static_cast<std::uint8_t>(bounds >> 24);
-  t.slot = static_cast<std::uint32_t>(count_);
-  t.covered = static_cast<std::uint32_t>(edges_.covered[at]);
-  t.samples = static_cast<std::uint16_t>(edges_.samples[at]);
-  t.da = edges_.planeA[at], t.db = edges_.planeB[at], t.dc = edges_.dc[at], t.lo = edges_.lo[at], t.hi = edges_.hi[at];
-  const SetupRange range = ranges_[count_] = {edges_.least[at], edges_.most[at], edges_.error[at]};
-  leastError_ = std::min(leastError_, range.error);
-  mostError_ = std::max(mostError_, range.error);
-  depths_.add(range.least, range.most);
-  samples_ += t.samples;
+  t.slot = slot;
+  t.covered = static_cast<std::uint32_t>(edges_.covered[i]);
+  t.samples = static_cast<std::uint16_t>(edges_.samples[i]);
+  t.edges = nullptr;
+  t.da = edges_.planeA[i], t.db = edges_.planeB[i], t.dc = edges_.dc[i], t.lo = edges_.lo[i], t.hi = edges_.hi[i];
+}
+
+inline void Tile::putEdges(int i, TriangleEdges& edges) const {
+  for (int k = 0; k < 3; ++k) edges.a[k] = edges_.a[k][i], edges.b[k] = edges_.b[k][i], edges.c[k] = edges_.c[k][i];
 }
 
 void Tile::findRanges() {
@@ -207,19 +208,17 @@ void Tile::finish(double farthest, bool decideAllExactly) {
 
 void Tile::drop(double farthest) {
   std::size_t kept = 0;
-  depths_ = {};
-  samples_ = 0;
-  mostError_ = 0;
+  DepthExtent extent;
   for (std::size_t i = 0; i < setups.size(); ++i) {
     const SetupRange& range = ranges_[i];
     if (!objects[slots[setups[i].slot].object].keep || range.least > farthest) continue;
-    depths_.add(range.least, range.most);
-    samples_ += setups[i].samples;
-    mostError_ = std::max(mostError_, range.error);
+    extent.add(range.least, range.most, range.error, setups[i].samples);
     if (kept < i) setups[kept] = setups[i], ranges_[kept] = range;
     ++kept;
   }
   setups = setups.first(kept);
+  extent.leastError = extent_.leastError;
+  extent_ = extent;
 }
 
 void Tile::scaleDepths(bool decideAllExactly) {
@@ -227,15 +226,15 @@ void Tile::scaleDepths(bool decideAllExactly) {
   format.depthBits = kKeyBits - slotBits;
   // A margin of 2^-8 of the range at both ends takes the rounding.
   const double units = std::ldexp(1.0, format.depthBits), margin = units / 256;
-  const double range = depths_.most - depths_.least, least = depths_.least;
+  const double range = extent_.most - extent_.least, least = extent_.least;
   // A range so small that rounding would fill thousands of key units gains nothing from a larger scale.
-  const double limit = std::clamp(kFinestError / leastError_, 1e-200, 1e200);
+  const double limit = std::clamp(kFinestError / extent_.leastError, 1e-200, 1e200);
   const double scale = std::min(range > 0 ? (units - 2 * margin) / range : 1.0, limit);
   cpu::scaleDepths(setups, {least, scale, margin, units - 2 * margin, kBias + margin});
   // One bound for all but the coarse: then a gap between neighbours in sorted order parts everything before from everything after.
   const auto inUnits = [scale](double error) { return error * scale * 1.25 + kKeyRounding; };
-  coarse = decideAllExactly || inUnits(mostError_) > double{kCoarse};
-  double common = coarse ? 0 : inUnits(mostError_);
+  coarse = decideAllExactly || inUnits(extent_.mostError) > double{kCoarse};
+  double common = coarse ? 0 : inUnits(extent_.mostError);
   for (std::size_t i = 0; coarse && i < setups.size(); ++i) {
     const double error = inUnits(ranges_[i].error);
     if (error <= double{kCoarse} && !decideAllExactly) common = std::max(common, error);

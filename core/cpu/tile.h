@@ -43,7 +43,7 @@ class Tile {
   Tile() = default;
   Tile(const Tile&) = delete;   // it holds spans of its own
 
-  // Finds the objects that touch a tile. O(references).
+  // Finds the objects that touch a tile. O(objects · log references).
   void begin(const Frame& frame, int index);
   // Sets the triangles of the kept objects up.
   void setUp(const Frame& frame);
@@ -65,7 +65,7 @@ class Tile {
   std::span<TileSlot> slots;                // ascending by primitive
   std::span<TriangleSetup> setups;
   std::vector<std::uint64_t> nearest;       // after orderByDepth: lower bound of the depth of each setup and all after it
-  double layers() const { return static_cast<double>(samples_) / (width * height); }   // about how many fragments a pixel has
+  double layers() const { return static_cast<double>(extent_.samples) / (width * height); }   // about how many fragments a pixel has
   std::size_t setupsOfLayers(double layers) const;   // how many setups, from the first, make about so many
   KeyFormat format;
   bool coarse = false;                      // some slot is so uncertain that its neighbours in depth order may not be adjacent
@@ -82,7 +82,8 @@ class Tile {
   };
   void gather(const Frame& frame, const Source& source, std::span<const std::uint32_t> references, int at);
   void setUpBatch(const Frame& frame, int count);
-  void addSetup(int at);
+  void putSetup(int i, std::uint32_t slot, TriangleSetup& t) const;
+  void putEdges(int i, TriangleEdges& edges) const;
   void drop(double farthest);
   void scaleDepths(bool decideAllExactly);
 
@@ -98,9 +99,7 @@ class Tile {
   std::vector<TriangleEdges> edgeRoom_;
   std::vector<SetupRange> ranges_;          // order values of each setup in the tile
   std::size_t count_ = 0, edgeCount_ = 0;
-  std::int64_t samples_ = 0;                // of all setups
-  DepthRange depths_;                       // of all setups, without the error
-  double leastError_ = 0, mostError_ = 0;   // of all slots, of all setups
+  DepthExtent extent_;                      // of all setups; the least error of all slots
   std::vector<std::uint64_t> order_;        // of orderByDepth, kept for their memory
 };
 

@@ -80,7 +80,9 @@ HWY_INLINE HWY_ATTR bool blendRuns(const OverBlock& from, int pixel, State& stat
   return coplanar;
 }
 
-HWY_ATTR std::uint64_t BlendBlock(const OverBlock& from, const cpu::BlockOrder& order, BlendedPixel* out) {
+HWY_ATTR std::uint64_t BlendBlock(const OverBlock& fromBlock, const cpu::BlockOrder& orderOfBlock, BlendedPixel* out) {
+  const OverBlock from = fromBlock;
+  const cpu::BlockOrder order = orderOfBlock;
   alignas(32) const double background[4] = {from.background.r, from.background.g, from.background.b, 0};
   std::uint64_t coplanar = 0;
   for (std::uint64_t left = order.certain; left; left &= left - 1) {
