@@ -36,35 +36,21 @@ void OverFold::finishResult() {
   ready_ = true;
 }
 
-inline void OverFold::putColors(std::uint64_t pixels, const fold::BlendedPixel* blended, int x, int y) const {
-  Image<Rgb8>* const image = canvas_.targets().color;
-  if (!image) return;
-  for (int row = 0; row < cpu::kBlockSize; ++row) {
-    std::uint64_t left = pixels >> (row * cpu::kBlockSize) & 0xFF;
-    if (!left) continue;   // the row may lie below the image
-    Rgb8* const to = &image->at(x, y + row);
-    const fold::BlendedPixel* const from = blended + row * cpu::kBlockSize;
-    for (; left; left &= left - 1) {
-      const int k = std::countr_zero(left);
-      to[k] = from[k].rgb8();
-    }
-  }
-}
-
 std::uint64_t OverFold::foldBlock(const cpu::FragmentBlock& block, const cpu::Tile& tile, const cpu::BlockOrder& order, int x, int y) {
-  fold::BlendedPixel blended[cpu::kBlockPixels];
-  const std::uint64_t coplanar = fold::blendBlock({block, tile.format, colors_.data(), background_, mayEnd_}, order, blended);
-  const bool wantsNearest = canvas_.targets().depth || canvas_.targets().ids;
-  if (!wantsNearest && !canvas_.targets().floats && !canvas_.targets().counts()) {
-    putColors(order.certain, blended, x, y);
-    return coplanar;
+  const Targets& targets = canvas_.targets();
+  const fold::OverBlock from{block, tile.format, colors_.data(), background_, mayEnd_};
+  const bool wantsNearest = targets.depth || targets.ids;
+  if (targets.color && !targets.floats && !wantsNearest && !targets.counts()) {
+    return fold::blendColors(from, order, &targets.color->at(x, y), targets.color->width);
   }
+  fold::BlendedPixel blended[cpu::kBlockPixels];
+  const std::uint64_t coplanar = fold::blendBlock(from, order, blended);
   for (std::uint64_t pixels = order.certain; pixels; pixels &= pixels - 1) {
     const int p = std::countr_zero(pixels);
-    const fold::BlendedPixel& from = blended[p];
+    const fold::BlendedPixel& pixel = blended[p];
     PixelResult result;
-    result.color = {from.color[0], from.color[1], from.color[2]};
-    result.bytes = from.rgb8();
+    result.color = {pixel.color[0], pixel.color[1], pixel.color[2]};
+    result.bytes = pixel.rgb8();
     result.layers = result.largestGroup = 1;   // wanted of the z-buffer alone
     if (wantsNearest) result.nearest = nearestSeen(stackOf(block, p, tile));
     canvas_.put({x + p % cpu::kBlockSize, y + p / cpu::kBlockSize, 1, 1}, result, tile);

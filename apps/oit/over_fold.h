@@ -133,7 +133,6 @@ class OverFold {
   void setColor(PixelResult& result, const fold::OverState& state) const;
   void finishResult();
   const cpu::TileSlot* nearestSeen(const PixelStack& stack) const;
-  void putColors(std::uint64_t pixels, const fold::BlendedPixel* blended, int x, int y) const;
 
   const Scene& scene_;
   const fold::OverTables& tables_;

@@ -103,11 +103,28 @@ inline void sortColumn(std::uint64_t* keys, std::uint32_t count, std::size_t str
   for (std::uint32_t i = 0; i < count; ++i) keys[i * stride] = column[i];
 }
 
+template <class D>
+HWY_INLINE HWY_ATTR std::uint32_t bitsOf(D d, hn::Mask<D> mask) {
+  std::uint8_t byte[8] = {};
+  hn::StoreMaskBits(d, mask, byte);
+  return std::uint32_t{byte[0]} & ((1u << hn::Lanes(d)) - 1);
+}
+
 HWY_INLINE HWY_ATTR std::uint32_t largestOf(const std::uint32_t* counts) {
   const hn::CappedTag<std::uint32_t, kBlockSize> d;
   auto largest = hn::LoadU(d, counts);
   for (std::size_t lane = hn::Lanes(d); lane < kBlockSize; lane += hn::Lanes(d)) largest = hn::Max(largest, hn::LoadU(d, counts + lane));
   return hn::GetLane(hn::MaxOfLanes(d, largest));
+}
+
+// Where a pixel has fewer fragments.
+HWY_INLINE HWY_ATTR std::uint32_t lanesBelow(const std::uint32_t* counts, std::uint32_t n) {
+  const hn::CappedTag<std::uint32_t, kBlockSize> d;
+  std::uint32_t mask = 0;
+  for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(d)) {
+    mask |= bitsOf(d, hn::Lt(hn::LoadU(d, counts + lane), hn::Set(d, n))) << lane;
+  }
+  return mask;
 }
 
 HWY_ATTR void SortBlock(const FragmentBlock& block) {
@@ -116,20 +133,16 @@ HWY_ATTR void SortBlock(const FragmentBlock& block) {
     const std::uint32_t n = largestOf(counts);
     if (n == 0) continue;
     std::uint64_t* keys = block.keys + row * kBlockSize;
-    for (int k = 0; k < kBlockSize; ++k) {
+    for (std::uint32_t shorter = lanesBelow(counts, n); shorter; shorter &= shorter - 1) {
+      const int k = __builtin_ctz(shorter);
       for (std::uint32_t layer = counts[k]; layer < n; ++layer) keys[std::size_t{layer} * block.stride + k] = kEmptyKey;
-      if (n > kMostNetworkLayers) sortColumn(keys + k, counts[k], block.stride);
     }
-    if (n > 1 && n <= kMostNetworkLayers) sortRow(keys, n, block.stride);
+    if (n > kMostNetworkLayers) {
+      for (int k = 0; k < kBlockSize; ++k) sortColumn(keys + k, counts[k], block.stride);
+    } else if (n > 1) {
+      sortRow(keys, n, block.stride);
+    }
   }
-}
-
-template <class Mask>
-HWY_INLINE HWY_ATTR std::uint32_t bitsOf(Mask mask) {
-  const I64 d;
-  std::uint8_t byte[8] = {};
-  hn::StoreMaskBits(d, mask, byte);
-  return std::uint32_t{byte[0]} & ((1u << hn::Lanes(d)) - 1);
 }
 
 // Lanes where a key and the next are `reach` or less apart; both fragments, or none.
@@ -141,9 +154,7 @@ HWY_INLINE HWY_ATTR std::uint32_t closeLanes(const std::uint64_t* keys, const st
       return hn::BitCast(d, hn::ShiftRightSame(hn::LoadU(U64(), at + lane), format.slotBits()));
     };
     const auto gap = hn::Sub(depth(next), depth(keys));
-    std::uint8_t byte[8] = {};
-    hn::StoreMaskBits(d, hn::Lt(gap, hn::Set(d, static_cast<std::int64_t>(reach) + 1)), byte);
-    mask |= (std::uint32_t{byte[0]} & ((1u << hn::Lanes(d)) - 1)) << lane;
+    mask |= bitsOf(d, hn::Lt(gap, hn::Set(d, static_cast<std::int64_t>(reach) + 1))) << lane;
   }
   return mask;
 }
@@ -156,9 +167,7 @@ HWY_INLINE HWY_ATTR std::uint32_t sameSlots(const std::uint64_t* keys, KeyFormat
   std::uint32_t mask = 0;
   for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(u)) {
     const auto differs = hn::And(hn::Xor(hn::LoadU(u, keys + lane), hn::LoadU(u, keys + lane + 1)), slot);
-    std::uint8_t byte[8] = {};
-    hn::StoreMaskBits(u, hn::Eq(differs, hn::Zero(u)), byte);
-    mask |= (std::uint32_t{byte[0]} & ((1u << hn::Lanes(u)) - 1)) << lane;
+    mask |= bitsOf(u, hn::Eq(differs, hn::Zero(u))) << lane;
   }
   return mask << 1 & 0xFE;
 }
@@ -168,7 +177,7 @@ HWY_INLINE HWY_ATTR std::uint32_t filledLanes(const std::uint64_t* keys) {
   const I64 d;
   std::uint32_t mask = 0;
   for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(d)) {
-    mask |= bitsOf(hn::Ne(hn::BitCast(d, hn::LoadU(U64(), keys + lane)), hn::Set(d, static_cast<std::int64_t>(kEmptyKey)))) << lane;
+    mask |= bitsOf(d, hn::Ne(hn::BitCast(d, hn::LoadU(U64(), keys + lane)), hn::Set(d, static_cast<std::int64_t>(kEmptyKey)))) << lane;
   }
   return mask;
 }
@@ -214,8 +223,8 @@ HWY_INLINE HWY_ATTR Neighbours closeNeighbours(const std::uint64_t* keys, std::s
       }
       here = next, depth = nextDepth;
     }
-    result.coplanar |= bitsOf(coplanar) << lane;
-    result.open |= bitsOf(open) << lane;
+    result.coplanar |= bitsOf(d, coplanar) << lane;
+    result.open |= bitsOf(d, open) << lane;
   }
   return result;
 }

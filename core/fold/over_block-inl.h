@@ -41,65 +41,126 @@ HWY_INLINE HWY_ATTR void blendFragment(State& state, const glm::vec4& fragment) 
   state.transmittance *= 1.0 - alpha;
 }
 
-// overResult and overLevels.
-HWY_INLINE HWY_ATTR void finishPixel(const State& state, const double* background, BlendedPixel& out) {
-  const Channels d;
-  for (std::size_t part = 0; part < kParts; ++part) {
-    const std::size_t lane = part * hn::MaxLanes(d);
-    const auto color = hn::Add(state.color[part], hn::Mul(hn::Load(d, background + lane), hn::Set(d, state.transmittance)));
-    hn::StoreU(hn::DemoteTo(Floats(), color), Floats(), out.color + lane);
-    const auto clamped = hn::Min(hn::Max(color, hn::Zero(d)), hn::Set(d, 255.0));
-    const auto levels = hn::DemoteTo(Ints(), hn::Add(clamped, hn::Set(d, 0.5 + 1.0 / 8589934592.0)));
-    hn::StoreU(hn::DemoteTo(Bytes(), levels), Bytes(), out.bytes + lane);
+// overResult.
+struct Result {
+  hn::Vec<Channels> color[kParts];
+
+  HWY_INLINE HWY_ATTR Result(const State& state, const double* background) {
+    const Channels d;
+    for (std::size_t part = 0; part < kParts; ++part) {
+      color[part] = hn::Add(state.color[part], hn::Mul(hn::Load(d, background + part * hn::MaxLanes(d)), hn::Set(d, state.transmittance)));
+    }
   }
-}
+  // overLevels.
+  HWY_INLINE HWY_ATTR void toBytes(std::uint8_t* bytes) const {
+    const Channels d;
+    for (std::size_t part = 0; part < kParts; ++part) {
+      const auto clamped = hn::Min(hn::Max(color[part], hn::Zero(d)), hn::Set(d, 255.0));
+      const auto levels = hn::DemoteTo(Ints(), hn::Add(clamped, hn::Set(d, 0.5 + 1.0 / 8589934592.0)));
+      hn::StoreU(hn::DemoteTo(Bytes(), levels), Bytes(), bytes + part * hn::MaxLanes(d));
+    }
+  }
+};
+
+// Where results of a row go.
+struct ToPixels {
+  BlendedPixel* row;
+
+  HWY_INLINE HWY_ATTR void put(int x, const Result& result) const {
+    for (std::size_t part = 0; part < kParts; ++part) {
+      hn::StoreU(hn::DemoteTo(Floats(), result.color[part]), Floats(), row[x].color + part * hn::MaxLanes(Channels()));
+    }
+    result.toBytes(row[x].bytes);
+  }
+  HWY_INLINE void repeat(int x) const { row[x] = row[x - 1]; }
+};
+
+struct ToImage {
+  Rgb8* row;
+
+  HWY_INLINE HWY_ATTR void put(int x, const Result& result) const {
+    std::uint8_t bytes[4];
+    result.toBytes(bytes);
+    __builtin_memcpy(row + x, bytes, sizeof(Rgb8));
+  }
+  HWY_INLINE void repeat(int x) const { row[x] = row[x - 1]; }
+};
+
+// What every pixel of a block needs, at hand.
+struct Source {
+  const glm::vec4* colors;
+  std::uint64_t slotMask;
+  std::size_t stride;
+  cpu::KeyFormat format;
+  bool mayEnd;
+
+  HWY_INLINE HWY_ATTR explicit Source(const OverBlock& from)
+      : colors(from.colors), slotMask((std::uint64_t{1} << from.format.slotBits()) - 1), stride(from.block.stride), format(from.format), mayEnd(from.mayEnd) {}
+  HWY_INLINE const glm::vec4& colorOf(std::uint64_t key) const { return colors[key & slotMask]; }
+};
 
 template <bool kMayEnd>
-HWY_INLINE HWY_ATTR void blendDistinct(const OverBlock& from, int pixel, State& state) {
-  const std::uint64_t* key = from.block.keys + pixel;
-  for (std::uint32_t left = from.block.counts[pixel]; left > 0; --left, key += from.block.stride) {
-    blendFragment(state, from.colors[from.format.slotOf(*key)]);
+HWY_INLINE HWY_ATTR void blendDistinct(const Source& from, const std::uint64_t* key, std::uint32_t count, State& state) {
+  for (; count > 0; --count, key += from.stride) {
+    blendFragment(state, from.colorOf(*key));
     if (kMayEnd && state.transmittance == 0.0) return;
   }
 }
 
 // Runs of equal depth are met from the last slot to the first. True: some had more than one fragment.
-HWY_INLINE HWY_ATTR bool blendRuns(const OverBlock& from, int pixel, State& state) {
-  const auto key = [&](std::uint32_t i) HWY_ATTR { return from.block.layer(i)[pixel]; };
-  const std::uint32_t count = from.block.counts[pixel];
+HWY_INLINE HWY_ATTR bool blendRuns(const Source& from, const std::uint64_t* keys, std::uint32_t count, State& state) {
+  const auto key = [&](std::uint32_t i) HWY_ATTR { return keys[i * from.stride]; };
   bool coplanar = false;
   for (std::uint32_t begin = 0; begin < count;) {
     const std::uint64_t depth = from.format.depthOf(key(begin));
     std::uint32_t end = begin + 1;
     while (end < count && from.format.depthOf(key(end)) == depth) ++end;
     coplanar |= end - begin > 1;
-    for (std::uint32_t i = end; i-- > begin;) blendFragment(state, from.colors[from.format.slotOf(key(i))]);
+    for (std::uint32_t i = end; i-- > begin;) blendFragment(state, from.colorOf(key(i)));
     if (from.mayEnd && state.transmittance == 0.0) break;
     begin = end;
   }
   return coplanar;
 }
 
-HWY_ATTR std::uint64_t BlendBlock(const OverBlock& fromBlock, const cpu::BlockOrder& orderOfBlock, BlendedPixel* out) {
-  const OverBlock from = fromBlock;
-  const cpu::BlockOrder order = orderOfBlock;
-  alignas(32) const double background[4] = {from.background.r, from.background.g, from.background.b, 0};
+// `to(row)`: where results of a row go.
+template <class To>
+HWY_INLINE HWY_ATTR std::uint64_t blendRows(const OverBlock& block, const cpu::BlockOrder& order, To to) {
+  const Source from(block);
+  alignas(32) const double background[4] = {block.background.r, block.background.g, block.background.b, 0};
   std::uint64_t coplanar = 0;
-  for (std::uint64_t left = order.certain; left; left &= left - 1) {
-    const int p = __builtin_ctzll(left);
-    if (order.repeats >> p & 1) {
-      out[p] = out[p - 1];
-      coplanar |= (coplanar >> (p - 1) & 1) << p;
-      continue;
+  for (int first = 0; first < cpu::kBlockPixels; first += cpu::kBlockSize) {
+    const std::uint64_t* const keys = block.block.keys + first;
+    const std::uint32_t* const counts = block.block.counts + first;
+    const auto out = to(first / cpu::kBlockSize);
+    const auto bitsOfRow = [first](std::uint64_t pixels) { return static_cast<std::uint32_t>(pixels >> first) & 0xFF; };
+    const std::uint32_t repeats = bitsOfRow(order.repeats), mayBeCoplanar = bitsOfRow(order.coplanar);
+    std::uint32_t found = 0;
+    for (std::uint32_t left = bitsOfRow(order.certain); left; left &= left - 1) {
+      const int x = __builtin_ctz(left);
+      if (repeats >> x & 1) {
+        out.repeat(x);
+        found |= (found >> (x - 1) & 1) << x;
+        continue;
+      }
+      State state;
+      for (auto& part : state.color) part = hn::Zero(Channels());
+      if (mayBeCoplanar >> x & 1) found |= std::uint32_t{blendRuns(from, keys + x, counts[x], state)} << x;
+      else if (from.mayEnd) blendDistinct<true>(from, keys + x, counts[x], state);
+      else blendDistinct<false>(from, keys + x, counts[x], state);
+      out.put(x, Result(state, background));
     }
-    State state;
-    for (auto& part : state.color) part = hn::Zero(Channels());
-    if (order.coplanar >> p & 1) coplanar |= std::uint64_t{blendRuns(from, p, state)} << p;
-    else if (from.mayEnd) blendDistinct<true>(from, p, state);
-    else blendDistinct<false>(from, p, state);
-    finishPixel(state, background, out[p]);
+    coplanar |= std::uint64_t{found} << first;
   }
   return coplanar;
+}
+
+HWY_ATTR std::uint64_t BlendBlock(const OverBlock& from, const cpu::BlockOrder& order, BlendedPixel* out) {
+  return blendRows(from, order, [out](int row) { return ToPixels{out + row * cpu::kBlockSize}; });
+}
+
+HWY_ATTR std::uint64_t BlendColors(const OverBlock& from, const cpu::BlockOrder& order, Rgb8* first, std::ptrdiff_t rowPixels) {
+  return blendRows(from, order, [=](int row) { return ToImage{first + row * rowPixels}; });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -11,9 +11,14 @@
 namespace copeel::fold {
 
 HWY_EXPORT(BlendBlock);
+HWY_EXPORT(BlendColors);
 
 std::uint64_t blendBlock(const OverBlock& from, const cpu::BlockOrder& order, BlendedPixel* out) {
   return HWY_DYNAMIC_DISPATCH(BlendBlock)(from, order, out);
+}
+
+std::uint64_t blendColors(const OverBlock& from, const cpu::BlockOrder& order, Rgb8* first, std::ptrdiff_t rowPixels) {
+  return HWY_DYNAMIC_DISPATCH(BlendColors)(from, order, first, rowPixels);
 }
 
 }  // namespace copeel::fold

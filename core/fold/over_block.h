@@ -2,6 +2,7 @@
 // channels with run-time dispatch. For blocks whose keys are sorted and tell the order of their pixels.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
@@ -29,5 +30,8 @@ struct OverBlock {
 
 // Blends the pixels that have a bit in `order.certain`. Returns those that meet coplanar fragments.
 std::uint64_t blendBlock(const OverBlock& from, const cpu::BlockOrder& order, BlendedPixel* out);
+
+// The same to an image, whose rows are `rowPixels` long. first: the block's first pixel in it.
+std::uint64_t blendColors(const OverBlock& from, const cpu::BlockOrder& order, Rgb8* first, std::ptrdiff_t rowPixels);
 
 }  // namespace copeel::fold
