@@ -15,7 +15,7 @@ constexpr std::uint32_t kChunkTriangles = 8192;
 
 struct Chunk {
   std::uint32_t firstObject, firstTriangle;   // where it starts
-  std::uint32_t count;                        // triangles, running on into the next objects
+  std::uint32_t count;                        // triangles, running on into the next objects that are binned
 };
 
 struct Entry {
@@ -27,12 +27,17 @@ struct ChunkBins {
   std::vector<ClippedTriangle> clipped;
 };
 
+// Of the objects that do not repeat the one before.
 std::vector<Chunk> chunksOf(const Scene& scene) {
   std::vector<Chunk> chunks;
-  std::uint32_t object = 0;
-  for (std::uint32_t p = 0; p < scene.primitiveCount(); p += kChunkTriangles) {
-    while (object + 1 < scene.objects().size() && scene.firstPrimitive(object + 1) <= p) ++object;
-    chunks.push_back({object, p - scene.firstPrimitive(object), std::min(kChunkTriangles, scene.primitiveCount() - p)});
+  for (std::uint32_t object = 0; object < scene.objects().size(); ++object) {
+    if (scene.repeats(object)) continue;
+    const auto triangles = static_cast<std::uint32_t>(scene.objects()[object].mesh->triangles.size());
+    for (std::uint32_t first = 0; first < triangles;) {
+      if (chunks.empty() || chunks.back().count == kChunkTriangles) chunks.push_back({object, first, 0});
+      const std::uint32_t some = std::min(kChunkTriangles - chunks.back().count, triangles - first);
+      chunks.back().count += some, first += some;
+    }
   }
   return chunks;
 }
@@ -107,6 +112,7 @@ void binChunk(const Scene& scene, const View& view, const Projection& projection
     }
   };
   for (; left > 0; ++object, triangle = 0) {
+    if (scene.repeats(object)) continue;
     const Mesh& mesh = *scene.objects()[object].mesh;
     const glm::ivec2* vertices = projection.vertices.data() + projection.firstVertex[object];
     const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(mesh.triangles.size(), std::size_t{triangle} + left));

@@ -1,6 +1,7 @@
 // Triangles to tiles: which primitives may cover a sample of which tile, in the order of their ids (sort-middle).
 //
-// A reference is a primitive id, or kPrimitiveLimit + index for a piece of a clipped triangle. 4 bytes a reference.
+// A reference is a primitive id, or kPrimitiveLimit + index for a piece of a clipped triangle. A mesh placed again where the object before has it has
+// none: its triangles lie where that one's do. 4 bytes a reference.
 #pragma once
 
 #include <cstdint>

@@ -48,22 +48,28 @@ void Tile::begin(const Frame& frame, int index) {
   slots = {};
   setups = {};
   nearest.clear();
+  const auto objectCount = static_cast<std::uint32_t>(frame.scene.objects().size());
   for (std::size_t i = 0; i < references_.size(); i = objects.back().lastReference) {
     const std::uint32_t object = frame.scene.objectOf(primitiveOf(frame, references_[i]));
-    const bool isLast = object + 1 == frame.scene.objects().size();
-    const std::uint32_t end = isLast ? kPrimitiveLimit : frame.scene.firstPrimitive(object + 1);
+    const std::uint32_t end = object + 1 == objectCount ? kPrimitiveLimit : frame.scene.firstPrimitive(object + 1);
     const auto isOfObject = [&](std::uint32_t reference) { return primitiveOf(frame, reference) < end; };
     std::size_t step = 1;
     while (step < references_.size() - i && isOfObject(references_[i + step])) step *= 2;
     const auto some = references_.subspan(i + step / 2, std::min(step, references_.size() - i) - step / 2);
     const auto past = static_cast<std::size_t>(std::partition_point(some.begin(), some.end(), isOfObject) - references_.begin());
-    objects.push_back({object, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(past)});
+    objects.push_back({object, object, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(past)});
+    while (objects.back().object + 1 < objectCount && frame.scene.repeats(objects.back().object + 1)) {
+      objects.push_back(objects.back());
+      ++objects.back().object;
+    }
   }
 }
 
 void Tile::setUp(const Frame& frame) {
+  std::size_t most = 0;
+  for (const TileObject& object : objects) most += object.lastReference - object.firstReference;
   const auto makeRoom = [&](auto& room) {
-    if (room.size() < references_.size()) room.resize(references_.size());
+    if (room.size() < most) room.resize(most);
   };
   makeRoom(slotRoom_);
   makeRoom(setupRoom_);
@@ -76,7 +82,7 @@ void Tile::setUp(const Frame& frame) {
     TileObject& object = objects[i];
     if (!object.keep) continue;
     const std::int32_t turn = mirrors(frame.scene.objects()[object.object].worldFromObject) ? -1 : 1;
-    const Source source{i, turn, frame.scene.firstPrimitive(object.object), frame.scene.objects()[object.object].mesh.get(),
+    const Source source{i, turn, frame.scene.firstPrimitive(object.object), frame.scene.firstPrimitive(object.binned), frame.scene.objects()[object.object].mesh.get(),
                         frame.projection.vertices.data() + frame.projection.firstVertex[object.object], frame.planes.classesOfObject(object.object)};
     // Batches run on from object to object.
     for (std::uint32_t k = object.firstReference; k < object.lastReference;) {
@@ -99,7 +105,7 @@ void Tile::gather(const Frame& frame, const Source& source, std::span<const std:
   const std::size_t count = references.size();
   glm::uvec3 corners[kEdgeBatch];
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t triangle = primitiveOf(frame, references[i]) - source.firstPrimitive;
+    const std::uint32_t triangle = primitiveOf(frame, references[i]) - source.firstBinned;
     const std::uint32_t planeClass = source.classes[source.mesh->facetOf(triangle)];
     __builtin_prefetch(&frame.depths[planeClass]);
     __builtin_prefetch(&frame.depths[planeClass].error);

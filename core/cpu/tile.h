@@ -31,6 +31,7 @@ struct DepthRange {
 
 struct TileObject {
   std::uint32_t object;                     // of the scene
+  std::uint32_t binned;                     // whose references these are: its own, or those of the first of the objects that it repeats
   std::uint32_t firstReference, lastReference;
   bool keep = true;                         // cleared by a fold that has no use for the object in this tile
   DepthRange range{};                       // after findRanges: in the tile
@@ -75,7 +76,7 @@ class Tile {
   struct Source {
     std::uint32_t index;                    // into objects
     std::int32_t turn;                      // -1: mirrored, its faces are turned inside out
-    std::uint32_t firstPrimitive;
+    std::uint32_t firstPrimitive, firstBinned;
     const Mesh* mesh;
     const glm::ivec2* vertices;             // on the grid
     const std::uint32_t* classes;           // of its facets
