@@ -21,11 +21,11 @@ using F64 = hn::CappedTag<double, kBlockSize>;
 using U64 = hn::CappedTag<std::uint64_t, kBlockSize>;
 using I64 = hn::CappedTag<std::int64_t, kBlockSize>;
 
-// `visit(i, j)`, i < j: the compare-exchanges of Batcher's odd-even merge sort of n elements. Based on: Batcher. Sorting networks and their applications.
-// AFIPS 1968.
+// `visit(i, j)`, i < j: the compare-exchanges of Batcher's odd-even merge sort of n elements in sorted groups of 2^log. Based on: Batcher. Sorting
+// networks and their applications. AFIPS 1968.
 template <class Visit>
-HWY_ATTR constexpr void forEachSortStep(std::uint32_t n, const Visit& visit) {
-  for (std::uint32_t log = 0; (1u << log) < n; ++log) {
+HWY_ATTR constexpr void forEachSortStep(std::uint32_t n, std::uint32_t log, const Visit& visit) {
+  for (; (1u << log) < n; ++log) {
     const std::uint32_t p = 1u << log;
     for (std::uint32_t k = p; k >= 1; k /= 2) {
       for (std::uint32_t j = k & (p - 1); j + k < n; j += 2 * k) {
@@ -38,47 +38,106 @@ HWY_ATTR constexpr void forEachSortStep(std::uint32_t n, const Visit& visit) {
   }
 }
 
-inline constexpr std::uint32_t kMostTabledLayers = 64;
-
 struct SortStep {
   std::uint8_t first, second;
 };
 
-// The steps of up to so many layers one after another, as finding the next one takes as long as the step.
-struct SortSteps {
-  std::uint16_t begin[kMostTabledLayers + 2] = {};
-  SortStep steps[15174] = {};
+// Groups of so many layers are sorted in registers, then merged.
+inline constexpr std::uint32_t kGroup = 8, kGroupLog = 3;
 
-  HWY_ATTR constexpr SortSteps() {
+template <std::uint32_t kCount>
+struct GroupSteps {
+  static constexpr std::size_t count() {
+    std::size_t n = 0;
+    forEachSortStep(kCount, 0, [&](std::uint32_t, std::uint32_t) { ++n; });
+    return n;
+  }
+  SortStep steps[count() + 1] = {};   // none is an array of no length
+
+  HWY_ATTR constexpr GroupSteps() {
+    std::size_t n = 0;
+    forEachSortStep(kCount, 0, [&](std::uint32_t i, std::uint32_t j) { steps[n++] = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j)}; });
+  }
+};
+
+HWY_INLINE HWY_ATTR void order(hn::Vec<F64>& a, hn::Vec<F64>& b) {
+  const auto nearer = hn::Min(a, b);
+  b = hn::Max(a, b);
+  a = nearer;
+}
+
+template <std::uint32_t kCount, std::size_t... kSteps>
+HWY_INLINE HWY_ATTR void orderAll(hn::Vec<F64>* v, std::index_sequence<kSteps...>) {
+  constexpr GroupSteps<kCount> network;
+  (order(v[network.steps[kSteps].first], v[network.steps[kSteps].second]), ...);
+}
+
+// `stride`: keys from one layer to the next.
+template <std::uint32_t kCount>
+HWY_INLINE HWY_ATTR void sortGroup(std::uint64_t* layers, std::size_t stride) {
+  const F64 d;
+  const U64 u;
+  for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(d)) {
+    hn::Vec<F64> v[kCount];
+    for (std::uint32_t i = 0; i < kCount; ++i) v[i] = hn::BitCast(d, hn::LoadU(u, layers + i * stride + lane));
+    orderAll<kCount>(v, std::make_index_sequence<GroupSteps<kCount>::count()>());
+    for (std::uint32_t i = 0; i < kCount; ++i) hn::StoreU(hn::BitCast(u, v[i]), u, layers + i * stride + lane);
+  }
+}
+
+// Of less than a group.
+HWY_INLINE HWY_ATTR void sortPart(std::uint64_t* layers, std::uint32_t n, std::size_t stride) {
+  switch (n) {
+    case 2: return sortGroup<2>(layers, stride);
+    case 3: return sortGroup<3>(layers, stride);
+    case 4: return sortGroup<4>(layers, stride);
+    case 5: return sortGroup<5>(layers, stride);
+    case 6: return sortGroup<6>(layers, stride);
+    case 7: return sortGroup<7>(layers, stride);
+    default: return;
+  }
+}
+
+inline constexpr std::uint32_t kMostTabledLayers = 64;
+
+// The steps that merge the groups of up to so many layers, one after another, as finding the next one takes as long as the step.
+struct MergeSteps {
+  std::uint16_t begin[kMostTabledLayers + 2] = {};
+  SortStep steps[10384] = {};
+
+  HWY_ATTR constexpr MergeSteps() {
     std::uint16_t count = 0;
     for (std::uint32_t n = 0; n <= kMostTabledLayers; ++n) {
       begin[n] = count;
-      forEachSortStep(n, [&](std::uint32_t i, std::uint32_t j) HWY_ATTR { steps[count++] = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j)}; });
+      forEachSortStep(n, kGroupLog, [&](std::uint32_t i, std::uint32_t j) HWY_ATTR { steps[count++] = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j)}; });
     }
     begin[kMostTabledLayers + 1] = count;
   }
   std::span<const SortStep> of(std::uint32_t n) const { return {steps + begin[n], steps + begin[n + 1]}; }
 };
-inline constexpr SortSteps kSortSteps;
-static_assert(kSortSteps.begin[kMostTabledLayers + 1] == std::size(kSortSteps.steps));
+inline constexpr MergeSteps kMergeSteps;
+static_assert(kMergeSteps.begin[kMostTabledLayers + 1] == std::size(kMergeSteps.steps));
 
 HWY_INLINE HWY_ATTR void compareExchange(std::uint64_t* p, std::uint64_t* q) {
   const F64 d;
   const U64 u;
   for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(d)) {
-    const auto a = hn::BitCast(d, hn::LoadU(u, p + lane)), b = hn::BitCast(d, hn::LoadU(u, q + lane));
-    hn::StoreU(hn::BitCast(u, hn::Min(a, b)), u, p + lane);
-    hn::StoreU(hn::BitCast(u, hn::Max(a, b)), u, q + lane);
+    auto a = hn::BitCast(d, hn::LoadU(u, p + lane)), b = hn::BitCast(d, hn::LoadU(u, q + lane));
+    order(a, b);
+    hn::StoreU(hn::BitCast(u, a), u, p + lane);
+    hn::StoreU(hn::BitCast(u, b), u, q + lane);
   }
 }
 
-// `stride`: keys from one layer to the next.
 HWY_INLINE HWY_ATTR void sortLayers(std::uint64_t* layers, std::uint32_t n, std::size_t stride) {
+  const std::uint32_t whole = n / kGroup * kGroup;
+  for (std::uint32_t i = 0; i < whole; i += kGroup) sortGroup<kGroup>(layers + i * stride, stride);
+  sortPart(layers + whole * stride, n - whole, stride);
   if (n <= kMostTabledLayers) {
-    for (const SortStep& step : kSortSteps.of(n)) compareExchange(layers + step.first * stride, layers + step.second * stride);
+    for (const SortStep& step : kMergeSteps.of(n)) compareExchange(layers + step.first * stride, layers + step.second * stride);
     return;
   }
-  forEachSortStep(n, [&](std::uint32_t i, std::uint32_t j) HWY_ATTR { compareExchange(layers + i * stride, layers + j * stride); });
+  forEachSortStep(n, kGroupLog, [&](std::uint32_t i, std::uint32_t j) HWY_ATTR { compareExchange(layers + i * stride, layers + j * stride); });
 }
 
 // Beyond so many layers the steps of the network miss the caches, and sorting the keys of each pixel side by side is faster (measured, whole frames:
