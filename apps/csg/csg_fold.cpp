@@ -272,15 +272,15 @@ bool CsgFold::fills(std::uint32_t leaf, std::uint32_t output) const {
 std::uint32_t CsgFold::showingFace(std::uint32_t output) {
   const std::span<const std::uint32_t> group(group_.data(), groupCount_);
   for (std::uint32_t slot : group) change_[slots_[slot].object] += slots_[slot].side;
-  std::uint32_t best = group.front(), bestLeaf = 0;
+  std::uint32_t best = group.back(), bestLeaf = 0;
   bool found = false, bestFaces = false;
-  // Slots ascend, so the last leaf that brings the change about is met first; the way up may be long.
-  for (auto slot = group.rbegin(); slot != group.rend(); ++slot) {
-    const std::uint32_t leaf = slots_[*slot].object;
+  // The last leaf that brings the change about is met first; the way up may be long.
+  for (std::uint32_t slot : group) {
+    const std::uint32_t leaf = slots_[slot].object;
     if (found && leaf != bestLeaf) break;
-    const bool faces = (slots_[*slot].side > 0) == (change_[leaf] > 0);   // turned the way the leaf changes
+    const bool faces = (slots_[slot].side > 0) == (change_[leaf] > 0);   // turned the way the leaf changes
     if (found ? !faces || bestFaces : !bringsChange(leaf, output)) continue;
-    found = true, best = *slot, bestLeaf = leaf, bestFaces = faces;
+    found = true, best = slot, bestLeaf = leaf, bestFaces = faces;
   }
   for (std::uint32_t slot : group) change_[slots_[slot].object] = 0;
   return best;

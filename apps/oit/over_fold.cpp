@@ -58,16 +58,10 @@ std::uint64_t OverFold::foldBlock(const cpu::FragmentBlock& block, const cpu::Ti
   return coplanar;
 }
 
-// Of an ordered pixel: the first fragment that is not quite clear; of coplanar ones, the last slot.
+// Of an ordered pixel: the first fragment that is not quite clear.
 const cpu::TileSlot* OverFold::nearestSeen(const PixelStack& stack) const {
-  std::uint32_t begin = 0;
   for (std::uint32_t i = 0; i < stack.count; ++i) {
-    if (stack.format.depthOf(stack.key(i)) != stack.format.depthOf(stack.key(begin))) begin = i;
-    const bool endsGroup = i + 1 == stack.count || stack.format.depthOf(stack.key(i + 1)) != stack.format.depthOf(stack.key(begin));
-    if (!endsGroup) continue;
-    for (std::uint32_t k = i + 1; k-- > begin;) {
-      if (colors_[stack.slot(k)].a > 0) return &stack.slots[stack.slot(k)];
-    }
+    if (colors_[stack.slot(i)].a > 0) return &stack.slots[stack.slot(i)];
   }
   return nullptr;
 }

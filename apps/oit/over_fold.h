@@ -1,10 +1,10 @@
 // Transparency on the ordered fragments of a pixel, on the cpu: core/fold/over.glsl fed group by group, and where its results go.
 //
-// A slot's colour under the light is computed once a tile; a fragment then costs the blend alone. Of coplanar fragments, the later object lies in
-// front, and within an object the later triangle (DESIGN.md), so a group is blended from its last slot to its first. Alpha 0 is not seen:
-// it hides nothing, has no depth and no id, but counts as a layer. Cost: 16 bytes a slot of the tile.
+// A slot's colour under the light is computed once a tile; a fragment then costs the blend alone. Alpha 0 is not seen: it hides nothing, has no depth
+// and no id, but counts as a layer. Cost: 16 bytes a slot of the tile.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -101,14 +101,15 @@ class OverFold {
     ready_ = false;
   }
   void fragment(std::uint32_t slot) {
-    if (groupCount_ == group_.size()) group_.resize(2 * group_.size());
-    group_[groupCount_++] = slot;
+    const glm::vec4& color = colors_[slot];
+    if (!result_.nearest && color.a > 0) result_.nearest = &tile_->slots[slot];
+    fold::overFragment(state_, color);
+    ++groupCount_;
   }
   bool closeGroup() {
-    const auto count = static_cast<std::uint32_t>(groupCount_);
-    result_.layers += count;
-    if (count > result_.largestGroup) result_.largestGroup = count;
-    for (; groupCount_ > 0; --groupCount_) blend(group_[groupCount_ - 1]);
+    result_.layers += groupCount_;
+    result_.largestGroup = std::max(result_.largestGroup, groupCount_);
+    groupCount_ = 0;
     return mayEnd_ && fold::overEnough(state_);
   }
   void endPixels(const PixelRect& rect) {
@@ -124,11 +125,6 @@ class OverFold {
   void takeNearest(cpu::Tile& tile, std::uint64_t* keys);
 
  private:
-  void blend(std::uint32_t slot) {
-    const glm::vec4& color = colors_[slot];
-    if (!result_.nearest && color.a > 0) result_.nearest = &tile_->slots[slot];
-    fold::overFragment(state_, color);
-  }
   glm::vec4 colorOf(const cpu::TileSlot& slot, std::uint32_t object) const;
   void setColor(PixelResult& result, const fold::OverState& state) const;
   void finishResult();
@@ -149,8 +145,7 @@ class OverFold {
   fold::OverState state_;
   PixelResult result_;
   bool ready_ = false;                         // result_ has its colour
-  std::vector<std::uint32_t> group_ = std::vector<std::uint32_t>(64);   // slots at one depth, ascending
-  std::size_t groupCount_ = 0;
+  std::uint32_t groupCount_ = 0;               // fragments at one depth
 };
 
 }  // namespace copeel::oit

@@ -222,7 +222,7 @@ HWY_INLINE HWY_ATTR std::uint32_t closeLanes(const std::uint64_t* keys, const st
 HWY_INLINE HWY_ATTR std::uint32_t sameSlots(const std::uint64_t* keys, KeyFormat format) {
   const U64 u;
   constexpr std::uint64_t kNone = std::uint64_t{1} << kKeyBits;   // the bit that kEmptyKey has, and no key
-  const auto slot = hn::Set(u, ((std::uint64_t{1} << format.slotBits()) - 1) | kNone);
+  const auto slot = hn::Set(u, format.slotMask() | kNone);
   std::uint32_t mask = 0;
   for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(u)) {
     const auto differs = hn::And(hn::Xor(hn::LoadU(u, keys + lane), hn::LoadU(u, keys + lane + 1)), slot);
@@ -253,7 +253,8 @@ HWY_INLINE HWY_ATTR Neighbours closeNeighbours(const std::uint64_t* keys, std::s
   const auto reach = hn::Set(d, static_cast<std::int64_t>(2 * tile.format.uncertainty) + 1), none = hn::BitCast(d, hn::Set(u, kEmptyKey));
   const auto depthOf = [&](hn::Vec<U64> key) HWY_ATTR { return hn::BitCast(d, hn::ShiftRightSame(key, tile.format.slotBits())); };
   const auto classOf = [&](hn::Vec<U64> key) HWY_ATTR {
-    const auto slot = hn::And(key, hn::Set(u, tile.lastSlot()));
+    const auto isKey = hn::Ne(key, hn::Set(u, kEmptyKey));
+    const auto slot = hn::IfThenElseZero(isKey, hn::AndNot(key, hn::Set(u, tile.format.slotMask())));
     // 24 bytes a slot, and the class in the upper half of the first eight.
     static_assert(sizeof(TileSlot) == 24 && offsetof(TileSlot, planeClass) == 4 && std::endian::native == std::endian::little);
     const auto offset = hn::BitCast(d, hn::Add(hn::ShiftLeft<4>(slot), hn::ShiftLeft<3>(slot)));
@@ -330,7 +331,7 @@ HWY_ATTR bool SameStacks(const FragmentBlock& block, const Tile& tile) {
   const TileSlot* before = nullptr;
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint64_t* keys = block.layer(i);
-    if (!hasOneSlot(keys, (std::uint64_t{1} << format.slotBits()) - 1)) return false;
+    if (!hasOneSlot(keys, format.slotMask())) return false;
     const TileSlot& slot = tile.slots[format.slotOf(keys[0])];
     if (slot.coarseBound) return false;
     if (before && before->planeClass != slot.planeClass) {

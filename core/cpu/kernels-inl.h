@@ -94,7 +94,7 @@ HWY_INLINE HWY_ATTR void rowKeys(const TriangleSetup& t, int x, int y, KeyFormat
   const hn::CappedTag<std::uint64_t, kCount> u;
   const auto da = hn::Set(d, t.da), base = hn::Set(d, t.db * y + t.dc);
   const auto lo = hn::Set(d, t.lo), hi = hn::Set(d, t.hi), first = hn::Set(d, static_cast<double>(x));
-  const auto slot = hn::Set(u, std::uint64_t{t.slot});
+  const auto slot = hn::Set(u, format.lowBitsOf(t.slot));
   for (std::size_t lane = 0; lane < kCount; lane += hn::Lanes(d)) {
     const auto at = hn::Add(first, hn::Load(d, kIota + lane));
     const auto depth = hn::Min(hn::Max(hn::Add(hn::Mul(da, at), base), lo), hi);
@@ -284,7 +284,7 @@ HWY_ATTR void CollectNearest(const TriangleSetup* triangles, std::size_t count, 
 // Two planes whose keys do not tell their order.
 inline bool isOpen(std::uint64_t nearer, std::uint64_t farther, KeyFormat format, const KeyDoubt& doubt) {
   if (farther - nearer >= doubt.reach) return false;
-  return doubt.slots[doubt.lastSlot - format.slotOf(nearer)].planeClass != doubt.slots[doubt.lastSlot - format.slotOf(farther)].planeClass;
+  return doubt.slots[format.slotOf(nearer)].planeClass != doubt.slots[format.slotOf(farther)].planeClass;
 }
 
 // A key that is nearer than the last, or as good as that: to its place among those kept.

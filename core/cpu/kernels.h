@@ -2,8 +2,9 @@
 // AVX2, SSE4, SSSE3, scalar). Every target gives the same bytes: coverage is exact integer arithmetic, and the depth of a lane is the same three
 // double operations whatever the width.
 //
-// A fragment is one 64-bit key: depth in the high bits, the triangle's slot in the tile in the low ones. Read as a positive double, keys
-// have the order of (depth, slot), which makes sorting a matter of min and max. Slots follow primitive ids, so ties have one order.
+// A fragment is one 64-bit key: depth in the high bits; in the low ones the triangle's slot in the tile, counted from the other end. Read as a positive
+// double, keys have the order of depth, then of slots from the last to the first, which makes sorting a matter of min and max. Slots follow primitive
+// ids, and of coplanar fragments the later one lies in front (DESIGN.md): keys ascend front to back, and ties have one order.
 #pragma once
 
 #include <algorithm>
@@ -49,7 +50,9 @@ struct KeyFormat {
   std::uint64_t uncertainty = 0;    // bound of the error of a depth, key units, of every slot that is not coarse (tile.h)
   int slotBits() const { return kKeyBits - depthBits; }
   std::uint64_t depthOf(std::uint64_t key) const { return key >> slotBits(); }
-  std::uint32_t slotOf(std::uint64_t key) const { return static_cast<std::uint32_t>(key & ((std::uint64_t{1} << slotBits()) - 1)); }
+  std::uint64_t slotMask() const { return (std::uint64_t{1} << slotBits()) - 1; }
+  std::uint32_t slotOf(std::uint64_t key) const { return static_cast<std::uint32_t>(~key & slotMask()); }
+  std::uint64_t lowBitsOf(std::uint32_t slot) const { return ~std::uint64_t{slot} & slotMask(); }   // of a key
 };
 
 // Before it is clamped. x, y: a pixel of the tile.
@@ -58,7 +61,7 @@ inline double depthAt(const TriangleSetup& t, int x, int y) { return t.da * stat
 inline std::uint64_t keyAt(const TriangleSetup& t, int x, int y, KeyFormat format) {
   // The mantissa of 2^52 + n is n: shifted up it loses exponent and sign, shifted back it leaves the two clear bits of a key.
   const auto bits = std::bit_cast<std::uint64_t>(std::min(std::max(depthAt(t, x, y), t.lo), t.hi));
-  return (bits << (64 - format.depthBits)) >> (64 - kKeyBits) | t.slot;
+  return (bits << (64 - format.depthBits)) >> (64 - kKeyBits) | format.lowBitsOf(t.slot);
 }
 
 // A range of blocks of a tile: [bx0, bx1) × [by0, by1).
@@ -129,7 +132,6 @@ void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, 
 // Based on: Bavoil, Callahan, Lefohn, Comba, Silva. Multi-Fragment Effects on the GPU Using the k-Buffer. I3D 2007. Vasilakis, Fudos. k⁺-buffer:
 // Fragment Synchronized k-buffer. I3D 2014: a fragment farther than all that are kept turns back at once.
 // Changed: a tile is one thread's, so nothing has to be kept apart; rows of eight pixels are turned back together.
-// Keys hold slots counted from the other end (Tile::flipSlots): of coplanar fragments the later one is the nearer.
 class NearestGrid {
  public:
   struct Block {
@@ -157,7 +159,6 @@ struct TileSlot;
 // What tells two keys' planes apart, and when they have to be.
 struct KeyDoubt {
   std::uint64_t reach;       // keys less than this apart may be in either order, if their planes differ
-  std::uint64_t lastSlot;    // slot s is kept as lastSlot - s
   const TileSlot* slots;
 };
 

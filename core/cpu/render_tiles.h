@@ -140,14 +140,12 @@ class TileRenderer {
     narrows_ = false;
     const BlockRect rect = wholeTile();
     if (tile_.coarse || fold_.needsWholeStack()) return drawRect(rect);
-    const KeyDoubt doubt{(2 * tile_.format.uncertainty + 2) << tile_.format.slotBits(), tile_.lastSlot(), tile_.slots.data()};
+    const KeyDoubt doubt{(2 * tile_.format.uncertainty + 2) << tile_.format.slotBits(), tile_.slots.data()};
     nearest_.clear();
     // Met nearest first, most fragments turn back at once; of small triangles the order costs more than it saves.
     const double layers = tile_.layers();
     if (layers > 2.0 * options_.nearest && layers * tile_.width * tile_.height > kSamplesToOrder * static_cast<double>(tile_.setups.size())) tile_.orderByDepth();
-    tile_.flipSlots();
     collectKNearest(tile_.setups, tile_.format, doubt, nearest_);
-    tile_.flipSlots();
     for (int by = rect.by0; by < rect.by1; ++by) {
       for (int bx = rect.bx0; bx < rect.bx1; ++bx) foldNearest(bx, by);
     }
@@ -157,7 +155,6 @@ class TileRenderer {
     NearestGrid::Block& nearest = nearest_.block(by * kBlocksPerSide + bx);
     const FragmentBlock kept = nearest.kept();
     for (int p = 0; p < kBlockPixels && !nearest.doubtful; ++p) {
-      for (std::uint32_t i = 0; i < kept.counts[p]; ++i) kept.layer(i)[p] ^= tile_.lastSlot();
       if (nearest.seen[p] > kept.counts[p] && endsOpen(kept, p)) nearest.doubtful = 1;
     }
     if (nearest.doubtful) return drawRect({bx, by, bx + 1, by + 1});

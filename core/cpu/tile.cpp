@@ -256,10 +256,6 @@ std::size_t Tile::setupsOfLayers(double layers) const {
   return count;
 }
 
-void Tile::flipSlots() {
-  for (TriangleSetup& t : setups) t.slot = static_cast<std::uint32_t>(lastSlot()) - t.slot;
-}
-
 void Tile::orderByDepth() {
   // As in a key, the low bits hold an index: a setup's is never greater than a slot's.
   const int indexBits = format.slotBits();

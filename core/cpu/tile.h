@@ -54,9 +54,6 @@ class Tile {
   void rangesOfBlocks(std::vector<DepthRange>& ranges) const;
   // Drops the triangles of objects that are no longer kept and those wholly beyond `farthest`; scales depths to keys.
   void finish(double farthest, bool decideAllExactly);
-  // Numbers the slots of the setups from the other end, and back: keys then put the later of coplanar triangles first.
-  void flipSlots();
-  std::uint64_t lastSlot() const { return (std::uint64_t{1} << format.slotBits()) - 1; }
   // Orders the setups by nearest depth, so that they can be met front to back.
   void orderByDepth();
 

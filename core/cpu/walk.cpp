@@ -52,7 +52,7 @@ void ExactStack::orderCluster(const PixelStack& stack, std::uint32_t begin, std:
   ++groups_;
   std::sort(classes_.begin(), classes_.end(), [](const Class& a, const Class& b) { return a.planeClass < b.planeClass; });
 
-  // Fragments by group, and by slot within one.
+  // Fragments by group, and from the last slot to the first within one.
   const std::size_t first = entries_.size();
   for (std::uint32_t i = begin; i < end; ++i) {
     const std::uint32_t slot = stack.slot(i);
@@ -61,7 +61,7 @@ void ExactStack::orderCluster(const PixelStack& stack, std::uint32_t begin, std:
     entries_.push_back({slot, found->group});
   }
   std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(first), entries_.end(), [](const Entry& a, const Entry& b) {
-    return a.group != b.group ? a.group < b.group : a.slot < b.slot;
+    return a.group != b.group ? a.group < b.group : a.slot > b.slot;
   });
 }
 

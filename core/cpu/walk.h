@@ -130,12 +130,8 @@ class Walker {
     coplanar_ = enough_ = false;
     std::size_t left = most_;
     for (std::size_t i = 0; i < entries.size() && left > 0 && !enough_;) {
-      std::size_t begin = i;
-      while (i < entries.size() && entries[i].group == entries[begin].group) ++i;
-      // Of coplanar fragments the later ones lie in front.
-      begin = std::max(begin, i - std::min(i, left));
-      for (std::size_t k = begin; k < i; ++k) fold_.fragment(entries[k].slot);
-      left -= i - begin;
+      const std::size_t begin = i;
+      for (; i < entries.size() && left > 0 && entries[i].group == entries[begin].group; ++i, --left) fold_.fragment(entries[i].slot);
       coplanar_ |= i - begin > 1;
       enough_ = fold_.closeGroup();
     }

@@ -95,32 +95,26 @@ struct Source {
   bool mayEnd;
 
   HWY_INLINE HWY_ATTR explicit Source(const OverBlock& from)
-      : colors(from.colors), slotMask((std::uint64_t{1} << from.format.slotBits()) - 1), stride(from.block.stride), format(from.format), mayEnd(from.mayEnd) {}
-  HWY_INLINE const glm::vec4& colorOf(std::uint64_t key) const { return colors[key & slotMask]; }
+      : colors(from.colors), slotMask(from.format.slotMask()), stride(from.block.stride), format(from.format), mayEnd(from.mayEnd) {}
+  HWY_INLINE const glm::vec4& colorOf(std::uint64_t key) const { return colors[~key & slotMask]; }
 };
 
+// Returns how many fragments were met.
 template <bool kMayEnd>
-HWY_INLINE HWY_ATTR void blendDistinct(const Source& from, const std::uint64_t* key, std::uint32_t count, State& state) {
-  for (; count > 0; --count, key += from.stride) {
+HWY_INLINE HWY_ATTR std::uint32_t blendFragments(const Source& from, const std::uint64_t* key, std::uint32_t count, State& state) {
+  for (std::uint32_t i = 0; i < count; ++i, key += from.stride) {
     blendFragment(state, from.colorOf(*key));
-    if (kMayEnd && state.transmittance == 0.0) return;
+    if (kMayEnd && state.transmittance == 0.0) return i + 1;
   }
+  return count;
 }
 
-// Runs of equal depth are met from the last slot to the first. True: some had more than one fragment.
-HWY_INLINE HWY_ATTR bool blendRuns(const Source& from, const std::uint64_t* keys, std::uint32_t count, State& state) {
-  const auto key = [&](std::uint32_t i) HWY_ATTR { return keys[i * from.stride]; };
-  bool coplanar = false;
-  for (std::uint32_t begin = 0; begin < count;) {
-    const std::uint64_t depth = from.format.depthOf(key(begin));
-    std::uint32_t end = begin + 1;
-    while (end < count && from.format.depthOf(key(end)) == depth) ++end;
-    coplanar |= end - begin > 1;
-    for (std::uint32_t i = end; i-- > begin;) blendFragment(state, from.colorOf(key(i)));
-    if (from.mayEnd && state.transmittance == 0.0) break;
-    begin = end;
+// Some of the first `met` fragments of a pixel have others at their depth.
+inline bool meetsCoplanar(const Source& from, const std::uint64_t* keys, std::uint32_t met, std::uint32_t count) {
+  for (std::uint32_t i = 0; i < met && i + 1 < count; ++i) {
+    if (from.format.depthOf(keys[i * from.stride]) == from.format.depthOf(keys[(i + 1) * from.stride])) return true;
   }
-  return coplanar;
+  return false;
 }
 
 // `to(row)`: where results of a row go.
@@ -134,23 +128,23 @@ HWY_INLINE HWY_ATTR std::uint64_t blendRows(const OverBlock& block, const cpu::B
     const std::uint32_t* const counts = block.block.counts + first;
     const auto out = to(first / cpu::kBlockSize);
     const auto bitsOfRow = [first](std::uint64_t pixels) { return static_cast<std::uint32_t>(pixels >> first) & 0xFF; };
-    const std::uint32_t repeats = bitsOfRow(order.repeats), mayBeCoplanar = bitsOfRow(order.coplanar);
-    std::uint32_t found = 0;
+    const std::uint32_t repeats = bitsOfRow(order.repeats);
+    std::uint32_t coplanarOfRow = bitsOfRow(order.coplanar);
     for (std::uint32_t left = bitsOfRow(order.certain); left; left &= left - 1) {
       const int x = __builtin_ctz(left);
       if (repeats >> x & 1) {
         out.repeat(x);
-        found |= (found >> (x - 1) & 1) << x;
+        coplanarOfRow = (coplanarOfRow & ~(1u << x)) | (coplanarOfRow >> (x - 1) & 1) << x;
         continue;
       }
       State state;
       for (auto& part : state.color) part = hn::Zero(Channels());
-      if (mayBeCoplanar >> x & 1) found |= std::uint32_t{blendRuns(from, keys + x, counts[x], state)} << x;
-      else if (from.mayEnd) blendDistinct<true>(from, keys + x, counts[x], state);
-      else blendDistinct<false>(from, keys + x, counts[x], state);
+      const std::uint32_t count = counts[x];
+      const std::uint32_t met = from.mayEnd ? blendFragments<true>(from, keys + x, count, state) : blendFragments<false>(from, keys + x, count, state);
+      if (met < count && coplanarOfRow >> x & 1 && !meetsCoplanar(from, keys + x, met, count)) coplanarOfRow ^= 1u << x;
       out.put(x, Result(state, background));
     }
-    coplanar |= std::uint64_t{found} << first;
+    coplanar |= std::uint64_t{coplanarOfRow} << first;
   }
   return coplanar;
 }

@@ -72,6 +72,7 @@ class StackFold {
   void fragment(std::uint32_t slot) { open_.push_back({slots_[slot].primitive, slots_[slot].side}); }
   bool closeGroup() {
     for (const Crossing& c : open_) opaque_ |= c.primitive >= wanted_.opaqueFrom;
+    std::reverse(open_.begin(), open_.end());   // the last slot came first
     groups_.push_back(std::move(open_));
     open_.clear();
     return enough();
