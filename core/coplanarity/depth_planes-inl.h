@@ -20,39 +20,28 @@ struct DepthView {
   double right, down;             // lengths
 };
 
-// What is read of eight classes.
-struct ClassBatch {
-  static constexpr std::size_t kSize = 8;
-  alignas(64) double normal[3][kSize] = {}, point[3][kSize] = {};
-  alignas(64) float lower[3][kSize] = {}, upper[3][kSize] = {};   // bounds
-  alignas(64) float normalError[kSize] = {};
+// The first vertex of each representative of a group, and where it lies. Points of one object, as nearly all are, are left for a vector to place.
+struct GroupPoints {
+  alignas(64) double at[3][PlaneClassGroup::kSize] = {};
   glm::dmat4 worldFromPoint{1.0};
 
-  // Points of one object, as nearly all are, are left for a vector to place.
-  void set(const Scene& scene, std::span<const PlaneClass> classes) {
-    const std::uint32_t first = classes.front().object;
+  void read(const Scene& scene, const PlaneClassGroup& group, std::size_t count) {
+    const std::uint32_t first = group.object[0];
     bool isOne = true;
-    for (const PlaneClass& planeClass : classes) isOne &= planeClass.object == first;
-    const Mesh& mesh = *scene.objects()[first].mesh;
-    worldFromPoint = isOne ? scene.objects()[first].worldFromObject : glm::dmat4(1.0);
-    for (std::size_t i = 0; i < classes.size(); ++i) {
-      put(i, classes[i], isOne ? mesh.vertices[mesh.triangles[classes[i].triangle].x] : pointOf(scene, classes[i]));
+    for (std::size_t i = 0; i < count; ++i) isOne &= group.object[i] == first;
+    const Object& object = scene.objects()[first];
+    const Mesh& mesh = *object.mesh;
+    worldFromPoint = isOne ? object.worldFromObject : glm::dmat4(1.0);
+    for (std::size_t i = 0; i < count; ++i) {
+      const glm::dvec3 p = isOne ? mesh.vertices[mesh.triangles[group.triangle[i]].x] : pointOf(scene, group.get(i));
+      for (int k = 0; k < 3; ++k) at[k][i] = p[k];
     }
-  }
-
- private:
-  void put(std::size_t i, const PlaneClass& planeClass, const glm::dvec3& p) {
-    for (int k = 0; k < 3; ++k) {
-      normal[k][i] = planeClass.normal[k], point[k][i] = p[k];
-      lower[k][i] = planeClass.boundsMin[k], upper[k][i] = planeClass.boundsMax[k];
-    }
-    normalError[i] = planeClass.normalError;
   }
 };
 
 struct PlaneBatch {
-  alignas(64) double a[ClassBatch::kSize], b[ClassBatch::kSize], c[ClassBatch::kSize];
-  alignas(64) float lo[ClassBatch::kSize], hi[ClassBatch::kSize], error[ClassBatch::kSize];
+  alignas(64) double a[PlaneClassGroup::kSize], b[PlaneClassGroup::kSize], c[PlaneClassGroup::kSize];
+  alignas(64) float lo[PlaneClassGroup::kSize], hi[PlaneClassGroup::kSize], error[PlaneClassGroup::kSize];
 };
 
 }  // namespace copeel
@@ -74,7 +63,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using F64 = hn::CappedTag<double, ClassBatch::kSize>;
+using F64 = hn::CappedTag<double, PlaneClassGroup::kSize>;
 using F32 = hn::Rebind<float, F64>;
 using V = hn::Vec<F64>;
 
@@ -86,15 +75,15 @@ struct V3 {
   V x, y, z;
 };
 
-HWY_INLINE HWY_ATTR V3 load3(const double (&from)[3][ClassBatch::kSize], std::size_t i) {
+HWY_INLINE HWY_ATTR V3 load3(const double (&from)[3][PlaneClassGroup::kSize], std::size_t i) {
   const F64 d;
-  return {hn::Load(d, from[0] + i), hn::Load(d, from[1] + i), hn::Load(d, from[2] + i)};
+  return {hn::LoadU(d, from[0] + i), hn::LoadU(d, from[1] + i), hn::LoadU(d, from[2] + i)};
 }
 
-HWY_INLINE HWY_ATTR V3 promote3(const float (&from)[3][ClassBatch::kSize], std::size_t i) {
+HWY_INLINE HWY_ATTR V3 promote3(const float (&from)[3][PlaneClassGroup::kSize], std::size_t i) {
   const F64 d;
   const F32 f;
-  return {hn::PromoteTo(d, hn::Load(f, from[0] + i)), hn::PromoteTo(d, hn::Load(f, from[1] + i)), hn::PromoteTo(d, hn::Load(f, from[2] + i))};
+  return {hn::PromoteTo(d, hn::LoadU(f, from[0] + i)), hn::PromoteTo(d, hn::LoadU(f, from[1] + i)), hn::PromoteTo(d, hn::LoadU(f, from[2] + i))};
 }
 
 HWY_INLINE HWY_ATTR V dot(const V3& a, const glm::dvec3& b) {
@@ -125,9 +114,9 @@ HWY_INLINE HWY_ATTR hn::Vec<F32> above(V value) {
 HWY_INLINE HWY_ATTR hn::Vec<F32> below(V value) { return hn::Neg(above(hn::Neg(value))); }
 
 // The depths that the class's faces reach.
-HWY_INLINE HWY_ATTR void setRange(const ClassBatch& from, std::size_t i, const DepthView& setup, PlaneBatch& out) {
+HWY_INLINE HWY_ATTR void setRange(const PlaneClassGroup& from, std::size_t i, const DepthView& setup, PlaneBatch& out) {
   const F32 f;
-  const V3 lower = promote3(from.lower, i), upper = promote3(from.upper, i);
+  const V3 lower = promote3(from.boundsMin, i), upper = promote3(from.boundsMax, i);
   const auto middle = [&](V l, V u, double eye) HWY_ATTR { return hn::Sub(hn::Mul(hn::Add(l, u), all(0.5)), all(eye)); };
   const auto half = [&](V l, V u) HWY_ATTR { return hn::Mul(hn::Sub(u, l), all(0.5)); };
   const glm::dvec3 forward = setup.view.forward, eye = setup.view.eye, size = glm::abs(forward);
@@ -143,16 +132,16 @@ HWY_INLINE HWY_ATTR void setRange(const ClassBatch& from, std::size_t i, const D
 }
 
 // s = numerator / denominator; the errors of both bound the error of s.
-HWY_INLINE HWY_ATTR void setPlanes(const ClassBatch& from, std::size_t i, const DepthView& setup, PlaneBatch& out) {
+HWY_INLINE HWY_ATTR void setPlanes(const PlaneClassGroup& from, const GroupPoints& points, std::size_t i, const DepthView& setup, PlaneBatch& out) {
   const F64 d;
   const F32 f;
   const View& view = setup.view;
   setRange(from, i, setup, out);
   const V lo = hn::PromoteTo(d, hn::Load(f, out.lo + i)), hi = hn::PromoteTo(d, hn::Load(f, out.hi + i));
-  const V3 n = load3(from.normal, i), point = transformed(from.worldFromPoint, load3(from.point, i));
+  const V3 n = load3(from.normal, i), point = transformed(points.worldFromPoint, load3(points.at, i));
   const V3 p{hn::Sub(point.x, all(view.eye.x)), hn::Sub(point.y, all(view.eye.y)), hn::Sub(point.z, all(view.eye.z))};
   const V alongPoint = dot(n, p), alongForward = dot(n, view.forward);
-  const V unit = hn::Add(hn::PromoteTo(d, hn::Load(f, from.normalError + i)), all(8 * kEps));   // error of a dot product with n, per length of the other vector
+  const V unit = hn::Add(hn::PromoteTo(d, hn::LoadU(f, from.normalError + i)), all(8 * kEps));   // error of a dot product with n, per length of the other vector
   const V pointError = hn::Mul(unit, hn::Sqrt(dot(p, p)));
   const V denominator = view.perspective ? alongPoint : alongForward;
   const V denominatorError = view.perspective ? pointError : unit;
@@ -173,13 +162,13 @@ HWY_INLINE HWY_ATTR void setPlanes(const ClassBatch& from, std::size_t i, const 
   hn::Store(above(hn::IfThenElse(known, hn::Add(evaluation, propagated), all(std::numeric_limits<double>::infinity()))), f, out.error + i);
 }
 
-HWY_ATTR void SetDepthPlanes(const Scene& scene, const PlaneClass* classes, std::size_t count, const DepthView& setup, DepthPlane* out) {
-  ClassBatch batch;
+HWY_ATTR void SetDepthPlanes(const Scene& scene, const PlaneClassGroup* groups, std::size_t count, const DepthView& setup, DepthPlane* out) {
+  GroupPoints points;
   PlaneBatch planes;
-  for (std::size_t begin = 0; begin < count; begin += ClassBatch::kSize) {
-    const std::size_t size = count - begin < ClassBatch::kSize ? count - begin : ClassBatch::kSize;
-    batch.set(scene, {classes + begin, size});
-    for (std::size_t i = 0; i < size; i += hn::Lanes(F64())) setPlanes(batch, i, setup, planes);
+  for (std::size_t begin = 0; begin < count; begin += PlaneClassGroup::kSize, ++groups) {
+    const std::size_t size = count - begin < PlaneClassGroup::kSize ? count - begin : PlaneClassGroup::kSize;
+    points.read(scene, *groups, size);
+    for (std::size_t i = 0; i < size; i += hn::Lanes(F64())) setPlanes(*groups, points, i, setup, planes);
     for (std::size_t i = 0; i < size; ++i) out[begin + i] = {planes.a[i], planes.b[i], planes.c[i], planes.lo[i], planes.hi[i], planes.error[i]};
   }
 }

@@ -36,9 +36,12 @@ DepthPlanes depthPlanes(const Scene& scene, const PlaneClasses& planes, const Vi
                         view.height * 0.5 + 1,
                         glm::length(view.right),
                         glm::length(view.down)};
-  DepthPlanes result(planes.classes().size());
-  parallelFor(result.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    HWY_DYNAMIC_DISPATCH(SetDepthPlanes)(scene, planes.classes().data() + begin, end - begin, setup, result.data() + begin);
+  constexpr std::size_t kSize = PlaneClassGroup::kSize;
+  const PlaneClassList classes = planes.classes();
+  DepthPlanes result(classes.size());
+  parallelFor((result.size() + kSize - 1) / kSize, 128, [&](std::size_t begin, std::size_t end) {
+    const std::size_t first = begin * kSize, count = std::min(end * kSize, result.size()) - first;
+    HWY_DYNAMIC_DISPATCH(SetDepthPlanes)(scene, classes.groups() + begin, count, setup, result.data() + first);
   });
   return result;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -257,19 +258,20 @@ PlaneClasses::PlaneClasses(const Scene& scene, double tolerance)
   for (const Object& object : scene.objects()) firstFacet.push_back(firstFacet.back() + object.mesh->facetCount());
   const std::size_t facetCount = firstFacet.back();
   classOfFacet_.assign(facetCount, kNone);
-  classes_ = std::make_unique_for_overwrite<PlaneClass[]>(facetCount);
+  room_ = std::make_unique_for_overwrite<std::byte[]>(facetCount * sizeof(PlaneClass) + sizeof(PlaneClassGroup));
+  auto* const ofFacets = reinterpret_cast<PlaneClass*>(room_.get());
 
   const Former former(scene, tolerance_, firstFacet);
   std::vector<std::uint32_t> inReach;
   {
     std::vector<PlaneCells::Place> places(facetCount);
-    former.measureAll(classes_.get(), places);
+    former.measureAll(ofFacets, places);
     inReach = placesInReach(places);
   }
   const std::vector<std::uint32_t> representatives =
-      former.form(former.keysOf(inReach, classes_.get()), classes_.get(),
+      former.form(former.keysOf(inReach, ofFacets), ofFacets,
                   [&](std::uint32_t facet, std::uint32_t planeClass) { classOfFacet_[facet] = planeClass; });
-  numberByObject(representatives);
+  numberByObject(ofFacets, representatives);
   shareLists(scene, firstFacet);
 }
 
@@ -288,9 +290,13 @@ void PlaneClasses::shareLists(const Scene& scene, const std::vector<std::uint64_
   classOfFacet_.resize(static_cast<std::size_t>(kept - all));
 }
 
-// Classes numbered as the objects meet them, so that what is drawn together lies together. Each moves down to its place: a representative is never
-// before the first facet of its class, so nothing is overwritten that is still wanted.
-void PlaneClasses::numberByObject(const std::vector<std::uint32_t>& representatives) {
+// Classes numbered as the objects meet them, so that what is drawn together lies together. Each moves down to its place in the same room: a
+// representative is never before the first facet of its class, so nothing is overwritten that is still wanted.
+void PlaneClasses::numberByObject(const PlaneClass* ofFacets, const std::vector<std::uint32_t>& representatives) {
+  static_assert(sizeof(PlaneClassGroup) <= PlaneClassGroup::kSize * sizeof(PlaneClass));
+  constexpr std::size_t kSize = PlaneClassGroup::kSize;
+  PlaneClassGroup group{};
+  const auto store = [&] { std::memcpy(room_.get() + (classCount_ - 1) / kSize * sizeof(group), &group, sizeof(group)); };
   std::vector<std::uint32_t> number(representatives.size(), kNone);
   for (std::size_t facet = 0; facet < classOfFacet_.size(); ++facet) {
     std::uint32_t& planeClass = classOfFacet_[facet];
@@ -299,11 +305,12 @@ void PlaneClasses::numberByObject(const std::vector<std::uint32_t>& representati
       planeClass = number[planeClass];
       continue;
     }
-    const std::size_t from = isAlone ? facet : representatives[planeClass];
-    if (classCount_ != from) classes_[classCount_] = classes_[from];
+    group.set(classCount_ % kSize, ofFacets[isAlone ? facet : representatives[planeClass]]);
     if (!isAlone) number[planeClass] = classCount_;
     planeClass = classCount_++;
+    if (classCount_ % kSize == 0) store();
   }
+  if (classCount_ % kSize != 0) store();
 }
 
 }  // namespace copeel
