@@ -27,7 +27,7 @@ class Look {
   const Model& model_;
   const RenderOptions& options_;
   std::vector<glm::dvec4> leafColors_;   // 0 … 255 and alpha, as parts of the solid
-  std::vector<float> shade_;             // per plane class
+  fold::Shades shade_;
 };
 
 }  // namespace copeel::csg

@@ -11,7 +11,7 @@
 namespace copeel::cpu {
 namespace {
 
-constexpr std::uint32_t kChunkTriangles = 8192;
+constexpr std::uint32_t kChunkTriangles = 4096;
 
 struct Chunk {
   std::uint32_t firstObject, firstTriangle;   // where it starts

@@ -248,13 +248,27 @@ HWY_ATTR bool CollectFragments(const TriangleSetup* triangles, std::size_t count
   // Bounds of triangles do not reach beyond a tile.
   const std::uint32_t closed = rect.count() == 1 ? ~(1u << (rect.by0 * kBlocksPerSide + rect.bx0)) : finished;
   while (count > 0) {
-    const FragmentGrid::Room room = grid.room(largestOf(grid.counts()));
+    const FragmentGrid::Room room = grid.room(grid.isEmpty() ? 0 : largestOf(grid.counts()));
     if (room.left == 0) return false;
     const std::size_t some = std::min(count, room.left);
     collectInRoom(triangles, some, format, rect, closed, room);
     triangles += some, count -= some;
   }
   return true;
+}
+
+HWY_ATTR PixelCounts CountPixels(std::span<const std::uint32_t> counts, std::uint32_t nearest) {
+  const hn::CappedTag<std::uint32_t, kBlockSize> d;
+  auto fragments = hn::Zero(d), captured = hn::Zero(d), covered = hn::Zero(d), most = hn::Zero(d);
+  for (std::size_t i = 0; i < counts.size(); i += hn::Lanes(d)) {
+    const auto count = hn::LoadU(d, counts.data() + i);
+    fragments = hn::Add(fragments, count);
+    captured = hn::Add(captured, hn::Min(count, hn::Set(d, nearest)));
+    covered = hn::Add(covered, hn::Min(count, hn::Set(d, 1)));
+    most = hn::Max(most, count);
+  }
+  const auto sum = [d](auto lanes) HWY_ATTR { return hn::GetLane(hn::SumOfLanes(d, lanes)); };
+  return {sum(fragments), sum(captured), sum(covered), hn::GetLane(hn::MaxOfLanes(d, most))};
 }
 
 HWY_ATTR void CollectNearest(const TriangleSetup* triangles, std::size_t count, KeyFormat format, std::uint64_t* nearest) {

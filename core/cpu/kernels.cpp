@@ -19,6 +19,7 @@ namespace copeel::cpu {
 
 HWY_EXPORT(CollectFragments);
 HWY_EXPORT(CollectNearest);
+HWY_EXPORT(CountPixels);
 HWY_EXPORT(CollectKNearest);
 HWY_EXPORT(SimdName);
 
@@ -26,6 +27,8 @@ bool collectFragments(std::span<const TriangleSetup> triangles, KeyFormat format
                       FragmentGrid& grid) {
   return HWY_DYNAMIC_DISPATCH(CollectFragments)(triangles.data(), triangles.size(), format, rect, finished, grid);
 }
+
+PixelCounts countPixels(std::span<const std::uint32_t> counts, std::uint32_t nearest) { return HWY_DYNAMIC_DISPATCH(CountPixels)(counts, nearest); }
 
 void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, std::uint64_t* nearest) {
   HWY_DYNAMIC_DISPATCH(CollectNearest)(triangles.data(), triangles.size(), format, nearest);
@@ -56,11 +59,13 @@ void FragmentGrid::begin(const BlockRect& rect) {
   // What a block took beyond the budget is given back.
   if (!isBlock && keys_.size() > budgetBytes_ / sizeof(std::uint64_t) + 1) keys_ = {};
   capacity_ = static_cast<std::uint32_t>(keys_.size() / stride_);
+  isEmpty_ = true;
   std::fill(std::begin(counts_), std::end(counts_), 0u);
 }
 
 FragmentGrid::Room FragmentGrid::room(std::uint32_t used) {
   constexpr std::uint32_t kLeastRoom = 32;   // layers: finding out how many are in use should be rare
+  isEmpty_ = false;
   if (used + kLeastRoom > capacity_ && !grow(used + kLeastRoom)) return {};
   return {keys_.data(), counts_, stride_, origin_, capacity_ - used};
 }
@@ -68,7 +73,8 @@ FragmentGrid::Room FragmentGrid::room(std::uint32_t used) {
 bool FragmentGrid::grow(std::size_t least) {
   const std::size_t most = limitBytes_ / (stride_ * sizeof(std::uint64_t));
   if (least > most) return false;
-  const std::size_t layers = std::min(std::max(least, std::size_t{capacity_} * 2), most);
+  constexpr std::size_t kFirst = 256;   // what no pixel reaches is not touched
+  const std::size_t layers = std::min(std::max({least, std::size_t{capacity_} * 2, kFirst}), most);
   // The last pixel's neighbour is read.
   UninitializedVector<std::uint64_t> keys(layers * stride_ + 1);
   std::copy_n(keys_.data(), std::size_t{capacity_} * stride_, keys.data());

@@ -105,6 +105,7 @@ class FragmentGrid {
     std::size_t left;                        // layers that may be added to every pixel; 0: the budget is spent
   };
   Room room(std::uint32_t used);             // layers in use
+  bool isEmpty() const { return isEmpty_; }
 
  private:
   // Layers of a tile lie so far apart that those of a pixel do not compete for the same lines of a cache.
@@ -116,6 +117,7 @@ class FragmentGrid {
   std::uint32_t counts_[kBlocksPerTile * kBlockPixels] = {};
   std::uint32_t origin_ = 0, stride_ = kTileStride;
   std::uint32_t capacity_ = 0;               // layers
+  bool isEmpty_ = true;                      // no room was given since it was begun
   std::size_t budgetBytes_, limitBytes_ = 0;
 };
 
@@ -123,6 +125,12 @@ class FragmentGrid {
 // passed over. False when the grid could not grow.
 bool collectFragments(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint32_t finished,
                       FragmentGrid& grid);
+
+struct PixelCounts {
+  std::uint32_t fragments = 0, captured = 0, covered = 0, most = 0;
+};
+// Of pixels with so many fragments each, of which `nearest` at most are captured; some multiple of 64 of them.
+PixelCounts countPixels(std::span<const std::uint32_t> counts, std::uint32_t nearest);
 
 // The plain z-buffer: keeps the least key of each pixel, nearest[block][64], which the caller has filled with kEmptyKey.
 void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, std::uint64_t* nearest);

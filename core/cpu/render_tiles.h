@@ -118,10 +118,9 @@ class TileRenderer {
         const PixelStack stack = even_.stack(tile_);
         walker_.walk(stack, pixels.x, pixels.y);
         endAll(pixels);
-        std::uint32_t counts[kBlockPixels];
-        const int pixelCount = pixels.width * pixels.height;
-        std::fill_n(counts, pixelCount, stack.count);
-        countFragments({counts, static_cast<std::size_t>(pixelCount)});
+        std::uint32_t counts[kBlockPixels] = {};
+        std::fill_n(counts, pixels.width * pixels.height, stack.count);
+        countFragments(counts);
       }
     }
   }
@@ -191,20 +190,13 @@ class TileRenderer {
     countFragments(grid_.counts());
   }
 
-  // counts: of some pixels.
+  // counts: of some blocks.
   void countFragments(std::span<const std::uint32_t> counts) {
-    std::uint64_t fragments = 0, captured = 0;
-    std::uint32_t covered = 0, most = 0;
-    for (const std::uint32_t n : counts) {
-      fragments += n;
-      captured += std::min(n, options_.nearest);
-      covered += n > 0;
-      most = std::max(most, n);
-    }
-    counts_.fragments += fragments;
-    counts_.captured += captured;
-    counts_.coveredPixels += covered;
-    counts_.depthComplexityMax = std::max<std::uint64_t>(counts_.depthComplexityMax, most);
+    const PixelCounts found = countPixels(counts, options_.nearest);
+    counts_.fragments += found.fragments;
+    counts_.captured += found.captured;
+    counts_.coveredPixels += found.covered;
+    counts_.depthComplexityMax = std::max<std::uint64_t>(counts_.depthComplexityMax, found.most);
   }
 
   void split(const BlockRect& rect) {

@@ -29,19 +29,27 @@ glm::dvec3 weighted(const Light& light, const View& view) {
   return (toward.x * right + toward.y * up - toward.z * view.forward) / glm::length(toward) * light.strength;
 }
 
+// Of a group's classes; in this form compilers make vectors of it.
+void addShades(const PlaneClassGroup& group, const glm::dvec3& light, double (&shades)[PlaneClassGroup::kSize]) {
+  const auto& n = group.normal;
+  for (std::size_t i = 0; i < PlaneClassGroup::kSize; ++i) shades[i] += std::abs(n[0][i] * light.x + n[1][i] * light.y + n[2][i] * light.z);
+}
+
 }  // namespace
 
-std::vector<float> shadesOf(const PlaneClasses& planes, const View& view, bool lit, const std::vector<Light>& lights) {
+Shades shadesOf(const PlaneClasses& planes, const View& view, bool lit, const std::vector<Light>& lights) {
   constexpr double kAmbient = 0.2;
-  std::vector<float> shades(planes.classes().size(), 1.0f);
-  if (!lit) return shades;
+  if (!lit) return Shades(planes.classes().size(), 1.0f);
+  Shades shades(planes.classes().size());
   std::vector<glm::dvec3> directions;
   for (const Light& light : lights) directions.push_back(weighted(light, view));
-  parallelFor(shades.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i != end; ++i) {
-      double shade = kAmbient;
-      for (const glm::dvec3& light : directions) shade += std::abs(glm::dot(planes.classes()[i].normal, light));
-      shades[i] = static_cast<float>(shade);
+  constexpr std::size_t kSize = PlaneClassGroup::kSize;
+  parallelFor((shades.size() + kSize - 1) / kSize, 512, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g != end; ++g) {
+      double sums[kSize];
+      std::fill_n(sums, kSize, kAmbient);
+      for (const glm::dvec3& light : directions) addShades(planes.classes().groups()[g], light, sums);
+      std::copy_n(sums, std::min(kSize, shades.size() - g * kSize), shades.begin() + g * kSize);
     }
   });
   return shades;

@@ -9,6 +9,7 @@
 #include "core/fold/common_glsl.h"
 #include "core/fold/light.h"
 #include "core/scene/view.h"
+#include "core/uninitialized.h"
 
 namespace copeel::fold {
 
@@ -22,12 +23,14 @@ struct BaseRange {
   std::uint32_t stride = 0;   // 0: one colour for the object, 1: one a triangle
 };
 
+using Shades = UninitializedVector<float>;   // per plane class, of one view
+
 // As a shader storage buffer takes them: vec4, uvec2 and float arrays without padding. A fragment's colour is
 // overShade(bases[first + stride · triangle], shades[class]).
 struct OverTables {
   std::vector<vec4> bases;          // 0 … 255, and alpha
   std::vector<BaseRange> ranges;    // per object
-  std::vector<float> shades;        // per plane class, of one view
+  Shades shades;
 
   void addObject(const vec4& color);
   void addObject(std::span<const vec4> colorOfTriangle);
@@ -35,6 +38,6 @@ struct OverTables {
 static_assert(sizeof(vec4) == 16 && sizeof(BaseRange) == 8);
 
 // 0.2 + Σ strength · |n·l| over the lights, l of length 1, the same from both sides of a face; 1 where nothing is lit. openscad's light gives openscad's shades.
-std::vector<float> shadesOf(const PlaneClasses& planes, const View& view, bool lit, const std::vector<Light>& lights = openscadLights());
+Shades shadesOf(const PlaneClasses& planes, const View& view, bool lit, const std::vector<Light>& lights = openscadLights());
 
 }  // namespace copeel::fold

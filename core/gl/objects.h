@@ -10,6 +10,7 @@
 
 #include "core/gl/device_memory.h"
 #include "core/gl/functions.h"
+#include "core/uninitialized.h"
 
 namespace copeel::gl {
 
@@ -45,6 +46,8 @@ class Buffer {
   explicit Buffer(std::size_t bytes, const void* data = nullptr);
   template <class T>
   explicit Buffer(const std::vector<T>& data) : Buffer(data.size() * sizeof(T), data.data()) {}
+  template <class T>
+  explicit Buffer(const UninitializedVector<T>& data) : Buffer(data.size() * sizeof(T), data.data()) {}
 
   std::size_t bytes() const { return bytes_; }
   GLuint name() const { return name_; }
