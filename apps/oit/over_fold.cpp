@@ -14,15 +14,14 @@ bool OverFold::beginTile(cpu::Tile& tile) {
 }
 
 double OverFold::narrowTile(cpu::Tile& tile) {
+  ranges_.clear();
+  for (const cpu::TileObject& object : tile.objects) {
+    const fold::BaseRange& range = tables_.ranges[object.object];
+    ranges_.push_back({range.first - range.stride * scene_.firstPrimitive(object.object), range.stride});
+  }
   colors_.resize(std::max(colors_.size(), tile.slots.size()));
-  for (std::size_t i = 0; i < tile.slots.size(); ++i) colors_[i] = colorOf(tile.slots[i], tile.objects[tile.slots[i].object].object);
+  fold::shadeSlots({tables_.bases.data(), tables_.shades.data(), ranges_.data()}, tile.slots, colors_.data());
   return std::numeric_limits<double>::infinity();
-}
-
-inline glm::vec4 OverFold::colorOf(const cpu::TileSlot& slot, std::uint32_t object) const {
-  const fold::BaseRange& range = tables_.ranges[object];
-  const std::uint32_t triangle = slot.primitive - scene_.firstPrimitive(object);
-  return fold::overShade(tables_.bases[range.first + std::size_t{range.stride} * triangle], tables_.shades[slot.planeClass]);
 }
 
 inline void OverFold::setColor(PixelResult& result, const fold::OverState& state) const {

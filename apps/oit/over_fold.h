@@ -125,7 +125,6 @@ class OverFold {
   void takeNearest(cpu::Tile& tile, std::uint64_t* keys);
 
  private:
-  glm::vec4 colorOf(const cpu::TileSlot& slot, std::uint32_t object) const;
   void setColor(PixelResult& result, const fold::OverState& state) const;
   void finishResult();
   const cpu::TileSlot* nearestSeen(const PixelStack& stack) const;
@@ -138,6 +137,7 @@ class OverFold {
 
   // Of the tile.
   const cpu::Tile* tile_ = nullptr;
+  std::vector<fold::PrimitiveRange> ranges_;   // per object
   std::vector<glm::vec4> colors_;              // per slot, under the light
   bool mayEnd_ = false;
 

@@ -157,6 +157,22 @@ HWY_ATTR std::uint64_t BlendColors(const OverBlock& from, const cpu::BlockOrder&
   return blendRows(from, order, [=](int row) { return ToImage{first + row * rowPixels}; });
 }
 
+HWY_ATTR void ShadeSlots(const SlotShading& shadingOfTile, std::span<const cpu::TileSlot> slots, glm::vec4* colors) {
+  const SlotShading shading = shadingOfTile;   // a local one stays in registers
+  const hn::CappedTag<float, 4> d;
+  alignas(16) constexpr float kAlpha[4] = {0, 0, 0, 1};
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const PrimitiveRange range = shading.ranges[slots[i].object];
+    const float* const base = &shading.bases[range.first + range.stride * slots[i].primitive].r;
+    const auto shade = hn::Set(d, shading.shades[slots[i].planeClass]);
+    for (std::size_t lane = 0; lane < 4; lane += hn::Lanes(d)) {
+      // Alpha is not shaded, and its limit is not the smaller one.
+      const auto alpha = hn::Load(d, kAlpha + lane), factor = hn::IfThenElse(hn::Gt(alpha, hn::Zero(d)), alpha, shade);
+      hn::StoreU(hn::Min(hn::Mul(hn::LoadU(d, base + lane), factor), hn::Set(d, 255.0f)), d, &colors[i].r + lane);
+    }
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace copeel::fold
 HWY_AFTER_NAMESPACE();

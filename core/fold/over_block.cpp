@@ -12,6 +12,7 @@ namespace copeel::fold {
 
 HWY_EXPORT(BlendBlock);
 HWY_EXPORT(BlendColors);
+HWY_EXPORT(ShadeSlots);
 
 std::uint64_t blendBlock(const OverBlock& from, const cpu::BlockOrder& order, BlendedPixel* out) {
   return HWY_DYNAMIC_DISPATCH(BlendBlock)(from, order, out);
@@ -19,6 +20,10 @@ std::uint64_t blendBlock(const OverBlock& from, const cpu::BlockOrder& order, Bl
 
 std::uint64_t blendColors(const OverBlock& from, const cpu::BlockOrder& order, Rgb8* first, std::ptrdiff_t rowPixels) {
   return HWY_DYNAMIC_DISPATCH(BlendColors)(from, order, first, rowPixels);
+}
+
+void shadeSlots(const SlotShading& shading, std::span<const cpu::TileSlot> slots, glm::vec4* colors) {
+  HWY_DYNAMIC_DISPATCH(ShadeSlots)(shading, slots, colors);
 }
 
 }  // namespace copeel::fold

@@ -1,17 +1,33 @@
 // The fold of transparency on a block of 8×8 pixels at once: core/fold/over.glsl's operations in its order, so the same bits, vectorised over the
-// channels with run-time dispatch. For blocks whose keys are sorted and tell the order of their pixels.
+// channels with run-time dispatch. For blocks whose keys are sorted and tell the order of their pixels. Slots of a tile are shaded so, too.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include "core/cpu/block_order.h"
+#include "core/cpu/tile.h"
 #include "core/image/image.h"
 
 namespace copeel::fold {
+
+// Where the colours of an object's primitives lie: bases[first + stride · primitive], modulo 2^32.
+struct PrimitiveRange {
+  std::uint32_t first, stride;
+};
+
+struct SlotShading {
+  const glm::vec4* bases;
+  const float* shades;             // per plane class
+  const PrimitiveRange* ranges;    // per object of the tile
+};
+
+// overShade of each slot; as many colours.
+void shadeSlots(const SlotShading& shading, std::span<const cpu::TileSlot> slots, glm::vec4* colors);
 
 struct BlendedPixel {
   float color[4];          // 0 … 255 over the background; the last is undefined
