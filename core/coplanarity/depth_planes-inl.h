@@ -136,7 +136,6 @@ HWY_INLINE HWY_ATTR void setPlanes(const PlaneClassGroup& from, const GroupPoint
   const F64 d;
   const F32 f;
   const View& view = setup.view;
-  setRange(from, i, setup, out);
   const V lo = hn::PromoteTo(d, hn::Load(f, out.lo + i)), hi = hn::PromoteTo(d, hn::Load(f, out.hi + i));
   const V3 n = load3(from.normal, i), point = transformed(points.worldFromPoint, load3(points.at, i));
   const V3 p{hn::Sub(point.x, all(view.eye.x)), hn::Sub(point.y, all(view.eye.y)), hn::Sub(point.z, all(view.eye.z))};
@@ -168,6 +167,7 @@ HWY_ATTR void SetDepthPlanes(const Scene& scene, const PlaneClassGroup* groups, 
   for (std::size_t begin = 0; begin < count; begin += PlaneClassGroup::kSize, ++groups) {
     const std::size_t size = count - begin < PlaneClassGroup::kSize ? count - begin : PlaneClassGroup::kSize;
     points.read(scene, *groups, size);
+    for (std::size_t i = 0; i < size; i += hn::Lanes(F64())) setRange(*groups, i, setup, planes);
     for (std::size_t i = 0; i < size; i += hn::Lanes(F64())) setPlanes(*groups, points, i, setup, planes);
     for (std::size_t i = 0; i < size; ++i) out[begin + i] = {planes.a[i], planes.b[i], planes.c[i], planes.lo[i], planes.hi[i], planes.error[i]};
   }
