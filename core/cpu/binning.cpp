@@ -121,14 +121,13 @@ void binChunk(const Scene& scene, const View& view, const Projection& projection
       const std::size_t count = std::min<std::size_t>(CornerBatch::kSize, end - triangle);
       const glm::uvec3* const triangles = mesh.triangles.data() + triangle;
       for (std::size_t i = 0; i < count; ++i) {
-        const glm::ivec2 p = vertices[triangles[i].x], q = vertices[triangles[i].y], r = vertices[triangles[i].z];
-        batch.px[i] = p.x, batch.py[i] = p.y, batch.qx[i] = q.x, batch.qy[i] = q.y, batch.rx[i] = r.x, batch.ry[i] = r.y;
+        batch.p[i] = vertices[triangles[i].x], batch.q[i] = vertices[triangles[i].y], batch.r[i] = vertices[triangles[i].z];
       }
       findSingleTiles(batch, count, grid);
       const std::uint32_t first = scene.firstPrimitive(object) + triangle;
       for (std::uint32_t i = 0; i < count; ++i) {
         if (batch.tile[i] >= 0) out.entries.push_back({static_cast<std::uint32_t>(batch.tile[i]), first + i});
-        else if (batch.tile[i] == kManyTiles) binOne(first + i, {batch.px[i], batch.py[i]}, {batch.qx[i], batch.qy[i]}, {batch.rx[i], batch.ry[i]});
+        else if (batch.tile[i] == kManyTiles) binOne(first + i, batch.p[i], batch.q[i], batch.r[i]);
       }
     }
   }

@@ -37,6 +37,14 @@ HWY_INLINE HWY_ATTR Corner corner(const std::int32_t* x, const std::int32_t* y) 
   return {hn::PromoteTo(d, hn::Load(whole, x)), hn::PromoteTo(d, hn::Load(whole, y))};
 }
 
+HWY_INLINE HWY_ATTR Corner corner(const glm::ivec2* from) {
+  const Exact d;
+  const Whole whole;
+  hn::Vec<Whole> x, y;
+  hn::LoadInterleaved2(whole, &from->x, x, y);
+  return {hn::PromoteTo(d, x), hn::PromoteTo(d, y)};
+}
+
 // Samples have whole-pixel coordinates: the first at or after the smallest corner, the last at or before the largest.
 HWY_INLINE HWY_ATTR Bounds boundsOf(const Corner& p, const Corner& q, const Corner& r, const TileFrame& tile) {
   const Exact d;
@@ -196,7 +204,7 @@ HWY_INLINE HWY_ATTR void setUpAny(EdgeBatch& batch, int i, const TileFrame& tile
   const Exact d;
   const Whole whole;
   const Lanes zero = hn::Zero(d);
-  const Corner p = corner(batch.px + i, batch.py + i), second = corner(batch.qx + i, batch.qy + i), third = corner(batch.rx + i, batch.ry + i);
+  const Corner p = corner(batch.p + i), second = corner(batch.q + i), third = corner(batch.r + i);
   const Lanes area = hn::Sub(hn::Mul(hn::Sub(second.x, p.x), hn::Sub(third.y, p.y)), hn::Mul(hn::Sub(second.y, p.y), hn::Sub(third.x, p.x)));
   const Bounds bounds = boundsOf(p, second, third, tile);
   hn::Store(hn::DemoteTo(whole, bounds.x0), whole, batch.x0 + i);
@@ -228,6 +236,9 @@ inline constexpr std::int32_t kShort = (1 << 15) - 1;
 
 struct ShortCorner {
   hn::Vec<Samples> x, y;
+
+  HWY_INLINE HWY_ATTR ShortCorner(hn::Vec<Samples> atX, hn::Vec<Samples> atY) : x(atX), y(atY) {}
+  HWY_INLINE HWY_ATTR explicit ShortCorner(const glm::ivec2* from) { hn::LoadInterleaved2(Samples(), &from->x, x, y); }
 };
 
 // setUpEdge in whole numbers of 32 bits, at the first sample of the bounds.
@@ -254,8 +265,7 @@ HWY_INLINE HWY_ATTR bool setUpShort(EdgeBatch& batch, int i, const TileFrame& ti
   const Samples d;
   const hn::RebindToUnsigned<Samples> bits;
   const auto zero = hn::Zero(d), one = hn::Set(d, 1);
-  const ShortCorner p{hn::Load(d, batch.px + i), hn::Load(d, batch.py + i)}, second{hn::Load(d, batch.qx + i), hn::Load(d, batch.qy + i)},
-      third{hn::Load(d, batch.rx + i), hn::Load(d, batch.ry + i)};
+  const ShortCorner p(batch.p + i), second(batch.q + i), third(batch.r + i);
   const auto left = hn::Min(hn::Min(p.x, second.x), third.x), right = hn::Max(hn::Max(p.x, second.x), third.x);
   const auto top = hn::Min(hn::Min(p.y, second.y), third.y), bottom = hn::Max(hn::Max(p.y, second.y), third.y);
   if (!hn::AllFalse(d, hn::Gt(hn::Max(hn::Sub(right, left), hn::Sub(bottom, top)), hn::Set(d, kShort)))) return false;
@@ -280,8 +290,8 @@ HWY_INLINE HWY_ATTR bool setUpShort(EdgeBatch& batch, int i, const TileFrame& ti
   hn::Store(hn::Min(hn::BitCast(d, pixels), half), d, batch.samples + i);
 
   const auto front = hn::Lt(area, zero);
-  const ShortCorner q{hn::IfThenElse(front, third.x, second.x), hn::IfThenElse(front, third.y, second.y)};
-  const ShortCorner r{hn::IfThenElse(front, second.x, third.x), hn::IfThenElse(front, second.y, third.y)};
+  const ShortCorner q(hn::IfThenElse(front, third.x, second.x), hn::IfThenElse(front, third.y, second.y));
+  const ShortCorner r(hn::IfThenElse(front, second.x, third.x), hn::IfThenElse(front, second.y, third.y));
   const auto holds = hn::Not(hn::Or(hn::Eq(area, zero), hn::Or(hn::Lt(x1, x0), hn::Lt(y1, y0))));
   const auto pq = setUpShortEdge(batch, 0, i, p, q, tile), qr = setUpShortEdge(batch, 1, i, q, r, tile), rp = setUpShortEdge(batch, 2, i, r, p, tile);
   const auto side = hn::IfThenElse(front, one, hn::Set(d, -1));
@@ -292,7 +302,7 @@ HWY_INLINE HWY_ATTR bool setUpShort(EdgeBatch& batch, int i, const TileFrame& ti
 HWY_ATTR void SetUpEdges(EdgeBatch& batch, int count, const TileFrame& tile) {
   const int group = static_cast<int>(hn::Lanes(Samples())), lanes = static_cast<int>(hn::Lanes(Exact()));
   // What a vector holds beyond the last triangle is none.
-  for (int i = count; i % group != 0; ++i) batch.px[i] = batch.py[i] = batch.qx[i] = batch.qy[i] = batch.rx[i] = batch.ry[i] = 0;
+  for (int i = count; i % group != 0; ++i) batch.p[i] = batch.q[i] = batch.r[i] = {0, 0};
   Extents extents(batch.extent);
   for (int i = 0; i < count; i += group) {
     if (!setUpShort(batch, i, tile)) {

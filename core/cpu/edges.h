@@ -30,7 +30,7 @@ struct DepthExtent {
 
 struct EdgeBatch {
   // In: corners, grid coordinates.
-  alignas(64) std::int32_t px[kEdgeBatch] = {}, py[kEdgeBatch] = {}, qx[kEdgeBatch] = {}, qy[kEdgeBatch] = {}, rx[kEdgeBatch] = {}, ry[kEdgeBatch] = {};
+  alignas(64) glm::ivec2 p[kEdgeBatch] = {}, q[kEdgeBatch] = {}, r[kEdgeBatch] = {};
   // In: the DepthPlane of each (core/coplanarity/depth_planes.h).
   alignas(64) double planeA[kEdgeBatch] = {}, planeB[kEdgeBatch] = {}, planeC[kEdgeBatch] = {};
   alignas(64) float planeLo[kEdgeBatch] = {}, planeHi[kEdgeBatch] = {}, planeError[kEdgeBatch] = {};

@@ -38,8 +38,10 @@ HWY_INLINE HWY_ATTR Span spanOf(Lanes smallest, Lanes largest, int bits, int siz
 HWY_ATTR void FindSingleTiles(CornerBatch& batch, std::size_t count, const TileGrid& grid) {
   const Whole d;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const Lanes px = hn::Load(d, batch.px + i), qx = hn::Load(d, batch.qx + i), rx = hn::Load(d, batch.rx + i);
-    const Lanes py = hn::Load(d, batch.py + i), qy = hn::Load(d, batch.qy + i), ry = hn::Load(d, batch.ry + i);
+    Lanes px, py, qx, qy, rx, ry;
+    hn::LoadInterleaved2(d, &batch.p[i].x, px, py);
+    hn::LoadInterleaved2(d, &batch.q[i].x, qx, qy);
+    hn::LoadInterleaved2(d, &batch.r[i].x, rx, ry);
     const Lanes left = hn::Min(hn::Min(px, qx), rx);
     const Span x = spanOf(left, hn::Max(hn::Max(px, qx), rx), grid.bits, grid.width);
     const Span y = spanOf(hn::Min(hn::Min(py, qy), ry), hn::Max(hn::Max(py, qy), ry), grid.bits, grid.height);

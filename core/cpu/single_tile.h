@@ -22,7 +22,7 @@ inline constexpr std::int32_t kManyTiles = -2;   // they reach into several tile
 struct CornerBatch {
   static constexpr std::size_t kSize = 64;
   // Grid coordinates of the corners, x = kOffGrid where they do not fit.
-  alignas(64) std::int32_t px[kSize] = {}, py[kSize] = {}, qx[kSize] = {}, qy[kSize] = {}, rx[kSize] = {}, ry[kSize] = {};
+  alignas(64) glm::ivec2 p[kSize] = {}, q[kSize] = {}, r[kSize] = {};
   alignas(64) std::int32_t tile[kSize];   // out
 };
 

@@ -113,15 +113,13 @@ void Tile::gather(const Frame& frame, const Source& source, std::span<const std:
     corners[i] = source.mesh->triangles[triangle];
   }
   for (std::size_t i = 0; i < count; ++i) {
-    glm::ivec2 p, q, r;
+    glm::ivec2 &p = edges_.p[at + i], &q = edges_.q[at + i], &r = edges_.r[at + i];
     if (references[i] < kPrimitiveLimit) {
       p = source.vertices[corners[i].x], q = source.vertices[corners[i].y], r = source.vertices[corners[i].z];
     } else {
       const ClippedTriangle& piece = frame.bins.clipped[references[i] - kPrimitiveLimit];
       p = piece.corners[0], q = piece.corners[1], r = piece.corners[2];
     }
-    const std::size_t to = at + i;
-    edges_.px[to] = p.x, edges_.py[to] = p.y, edges_.qx[to] = q.x, edges_.qy[to] = q.y, edges_.rx[to] = r.x, edges_.ry[to] = r.y;
   }
 }
 

@@ -42,7 +42,7 @@ cpu::EdgeBatch setUp(const std::vector<Triangle>& triangles) {
   cpu::EdgeBatch batch;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const auto& c = triangles[i].corner;
-    batch.px[i] = c[0].x, batch.py[i] = c[0].y, batch.qx[i] = c[1].x, batch.qy[i] = c[1].y, batch.rx[i] = c[2].x, batch.ry[i] = c[2].y;
+    batch.p[i] = c[0], batch.q[i] = c[1], batch.r[i] = c[2];
   }
   cpu::setUpEdges(batch, static_cast<int>(triangles.size()), kTile);
   return batch;
