@@ -1,4 +1,7 @@
 // Pixels of very many fragments: none is lost, whatever a tile must do to hold them.
+#include <numeric>
+#include <random>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/meshes.h"
@@ -29,6 +32,12 @@ Mesh pile(unsigned count, double gap) {
   return mesh;
 }
 
+void expectSame(const Stacks& a, const Stacks& b) {
+  ASSERT_EQ(a.pixels.size(), b.pixels.size());
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) ASSERT_EQ(a.pixels[i], b.pixels[i]) << "pixel " << i;
+  for (std::size_t i = 0; i < b.ends.size(); ++i) ASSERT_EQ(b.ends[i], b.pixels[i].empty() ? 0 : 1);
+}
+
 TEST(Fragments, tenThousandLayersInOnePixelKeepTheirOrder) {
   const unsigned count = 10000;
   const Prepared p(pile(count, 1e-3), above(1));
@@ -36,6 +45,56 @@ TEST(Fragments, tenThousandLayersInOnePixelKeepTheirOrder) {
   ASSERT_EQ(stacks.at(0, 0).size(), count);
   for (unsigned i = 0; i < count; ++i) ASSERT_EQ(stacks.at(0, 0)[i][0].primitive, count - 1 - i);
   EXPECT_EQ(stacks.counts.depthComplexityMax, count);
+}
+
+// Eight layers are sorted in registers and merged by steps from a table, up to 64; beyond, steps are found one by one.
+TEST(Fragments, anyNumberOfLayersIsSortedOnAnySimdTarget) {
+  std::vector<unsigned> counts(41);
+  std::iota(counts.begin(), counts.end(), 0u);
+  counts.insert(counts.end(), {63, 64, 65, 71, 129});
+  for (const unsigned count : counts) {
+    std::vector<unsigned> heights(count);
+    std::iota(heights.begin(), heights.end(), 0u);
+    std::shuffle(heights.begin(), heights.end(), std::mt19937(count));
+    Mesh mesh = pile(count, 0);
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices[v].z = heights[v / 3] * 0.01;
+    const Prepared p(mesh, above(9));
+    for (const char* target : {"scalar", "sse4", "avx2", "best"}) {
+      cpu::chooseSimd(target);
+      const Stacks stacks = stacksOf(p.frame);
+      for (const auto& pixel : stacks.pixels) {
+        ASSERT_EQ(pixel.size(), count) << target;
+        for (unsigned i = 0; i < count; ++i) ASSERT_EQ(heights[pixel[i][0].primitive], count - 1 - i) << target;
+      }
+    }
+    cpu::chooseSimd("best");
+  }
+}
+
+// A mesh placed again where the object before has it shares that one's vertices, references and list of classes.
+TEST(Fragments, aMeshPlacedAgainIsMetAsACopyOfItIs) {
+  const MeshPointer ball = share(sphere(0.4, 30, 20)), ground = share(quad({-50, -50, -0.3}, {50, -50, -0.3}, {50, 50, -0.3}, {-50, 50, -0.3}));
+  const MeshPointer none = share(Mesh{});
+  glm::dmat4 mirrored(1.0), aside(1.0);
+  mirrored[0][0] = -1;
+  aside[3] = {0.1, 0.2, 0.1, 1};
+  const std::vector<Object> again = {{ball}, {ball}, {ball, mirrored}, {ball, mirrored}, {none}, {none}, {ground}, {ground}, {ground}, {ball}, {ball, aside}, {ball, aside}};
+  std::vector<Object> copied = again;
+  for (Object& object : copied) object.mesh = share(*object.mesh);
+  const Scene scenes[] = {Scene(again), Scene(copied)};
+  ASSERT_TRUE(scenes[0].repeats(1) && scenes[0].repeats(3) && scenes[0].repeats(8) && !scenes[1].repeats(1));
+  // From outside, from among them, and close by: the ground is cut at the eye.
+  for (const glm::dvec3& eye : {glm::dvec3(3, 1, 2), glm::dvec3(0.2, 0.1, 0.1), glm::dvec3(0.5, 0.5, -0.29)}) {
+    const View view = lookAt(eye, {0, 0, 0}, 90, 70, 0.02);
+    Stacks stacks[2];
+    for (int i = 0; i < 2; ++i) {
+      const PlaneClasses planes(scenes[i], 0);
+      stacks[i] = stacksOf(cpu::Frame(scenes[i], planes, view));
+    }
+    expectSame(stacks[1], stacks[0]);
+    EXPECT_GT(stacks[0].fragments(), 5000u);
+    EXPECT_EQ(stacks[0].counts.fragments, stacks[1].counts.fragments);
+  }
 }
 
 TEST(Fragments, coplanarOnesInOnePixelAreOneGroup) {
@@ -49,12 +108,6 @@ TEST(Fragments, coplanarOnesInOnePixelAreOneGroup) {
     for (unsigned i = 0; i < count; ++i) ASSERT_EQ(group[i].primitive, i);
     EXPECT_EQ(stacks.counts.walk.coplanarPixels, count > 1);
   }
-}
-
-void expectSame(const Stacks& a, const Stacks& b) {
-  ASSERT_EQ(a.pixels.size(), b.pixels.size());
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) ASSERT_EQ(a.pixels[i], b.pixels[i]) << "pixel " << i;
-  for (std::size_t i = 0; i < b.ends.size(); ++i) ASSERT_EQ(b.ends[i], b.pixels[i].empty() ? 0 : 1);
 }
 
 TEST(Fragments, aTileThatOverflowsItsBudgetIsSplitAndLosesNothing) {

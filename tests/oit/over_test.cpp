@@ -1,10 +1,12 @@
 // The fold itself, on random stacks: from the front, from the back, and from both ends joined.
 #include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include "core/fold/over.h"
+#include "core/fold/over_block.h"
 
 namespace copeel::fold {
 namespace {
@@ -61,6 +63,32 @@ TEST(Over, anEmptyStackShowsTheBackgroundAndHalvesGoUp) {
 
 TEST(Over, lightBrighterThanWhiteStopsAtEachChannelsLimit) {
   EXPECT_EQ(overShade(vec4(250, 100, 10, 0.25f), 1.5f), vec4(255, 150, 15, 0.25f));
+}
+
+// Two objects of a tile: one of a single colour, one with a colour a triangle.
+TEST(Over, slotsOfATileAreShadedAlikeOnAnySimdTarget) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> level(0, 255), alpha(0, 1), light(0, 3);
+  std::vector<vec4> bases(101);
+  for (vec4& base : bases) base = vec4(level(random), level(random), level(random), alpha(random));
+  std::vector<float> shades(60);
+  for (float& shade : shades) shade = light(random);
+  constexpr std::uint32_t kFirstOfSecond = 1000;   // primitive
+  const PrimitiveRange ranges[] = {{0, 0}, {1 - kFirstOfSecond, 1}};
+  std::vector<cpu::TileSlot> slots;
+  std::vector<vec4> expected;
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    const std::uint32_t object = i / 100, planeClass = static_cast<std::uint32_t>(random() % shades.size());
+    slots.push_back({object ? kFirstOfSecond + i - 100 : i, planeClass, object, 1, 0});
+    expected.push_back(overShade(bases[object ? 1 + i - 100 : 0], shades[planeClass]));
+  }
+  for (const char* target : {"scalar", "sse4", "avx2", "best"}) {
+    cpu::chooseSimd(target);
+    std::vector<vec4> colors(slots.size());
+    shadeSlots({bases.data(), shades.data(), ranges}, slots, colors.data());
+    EXPECT_EQ(colors, expected) << target;
+  }
+  cpu::chooseSimd("best");
 }
 
 }  // namespace

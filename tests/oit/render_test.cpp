@@ -164,6 +164,14 @@ TEST(Oit, theZBufferKeepsTheNearestAlone) {
   EXPECT_EQ(frame.ids.at(10, 10), 1);
 }
 
+TEST(Oit, theZBufferShowsTheLaterOfCoplanarParts) {
+  oit::RenderOptions options = unlit();
+  options.method = findMethod("zbuffer");
+  const oit::Frame frame = drawParts({part(square(1), kRed), part(flipped(square(1)), kGreen), part(square(0), kBlue)}, kAbove, options).frame;
+  EXPECT_EQ(frame.color.at(10, 10), (Rgb8{0, 100, 0}));
+  EXPECT_EQ(frame.ids.at(10, 10), 2);
+}
+
 oit::RenderOptions kBuffer(std::string_view method, std::uint32_t k) {
   oit::RenderOptions options = unlit();
   options.method = findMethod(method, "cpu");
