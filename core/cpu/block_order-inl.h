@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "core/cpu/block_order.h"
+#include "core/cpu/lanes-inl.h"
 #include "core/fold/fold.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -60,16 +61,16 @@ struct GroupSteps {
   }
 };
 
-HWY_INLINE HWY_ATTR void order(hn::Vec<F64>& a, hn::Vec<F64>& b) {
+HWY_INLINE HWY_ATTR void putInOrder(hn::Vec<F64>& a, hn::Vec<F64>& b) {
   const auto nearer = hn::Min(a, b);
   b = hn::Max(a, b);
   a = nearer;
 }
 
 template <std::uint32_t kCount, std::size_t... kSteps>
-HWY_INLINE HWY_ATTR void orderAll(hn::Vec<F64>* v, std::index_sequence<kSteps...>) {
+HWY_INLINE HWY_ATTR void sortVectors(hn::Vec<F64>* v, std::index_sequence<kSteps...>) {
   constexpr GroupSteps<kCount> network;
-  (order(v[network.steps[kSteps].first], v[network.steps[kSteps].second]), ...);
+  (putInOrder(v[network.steps[kSteps].first], v[network.steps[kSteps].second]), ...);
 }
 
 // `stride`: keys from one layer to the next.
@@ -80,7 +81,7 @@ HWY_INLINE HWY_ATTR void sortGroup(std::uint64_t* layers, std::size_t stride) {
   for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(d)) {
     hn::Vec<F64> v[kCount];
     for (std::uint32_t i = 0; i < kCount; ++i) v[i] = hn::BitCast(d, hn::LoadU(u, layers + i * stride + lane));
-    orderAll<kCount>(v, std::make_index_sequence<GroupSteps<kCount>::count()>());
+    sortVectors<kCount>(v, std::make_index_sequence<GroupSteps<kCount>::count()>());
     for (std::uint32_t i = 0; i < kCount; ++i) hn::StoreU(hn::BitCast(u, v[i]), u, layers + i * stride + lane);
   }
 }
@@ -123,7 +124,7 @@ HWY_INLINE HWY_ATTR void compareExchange(std::uint64_t* p, std::uint64_t* q) {
   const U64 u;
   for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(d)) {
     auto a = hn::BitCast(d, hn::LoadU(u, p + lane)), b = hn::BitCast(d, hn::LoadU(u, q + lane));
-    order(a, b);
+    putInOrder(a, b);
     hn::StoreU(hn::BitCast(u, a), u, p + lane);
     hn::StoreU(hn::BitCast(u, b), u, q + lane);
   }
@@ -162,20 +163,6 @@ inline void sortColumn(std::uint64_t* keys, std::uint32_t count, std::size_t str
   for (std::uint32_t i = 0; i < count; ++i) keys[i * stride] = column[i];
 }
 
-template <class D>
-HWY_INLINE HWY_ATTR std::uint32_t bitsOf(D d, hn::Mask<D> mask) {
-  std::uint8_t byte[8] = {};
-  hn::StoreMaskBits(d, mask, byte);
-  return std::uint32_t{byte[0]} & ((1u << hn::Lanes(d)) - 1);
-}
-
-HWY_INLINE HWY_ATTR std::uint32_t largestOf(const std::uint32_t* counts) {
-  const hn::CappedTag<std::uint32_t, kBlockSize> d;
-  auto largest = hn::LoadU(d, counts);
-  for (std::size_t lane = hn::Lanes(d); lane < kBlockSize; lane += hn::Lanes(d)) largest = hn::Max(largest, hn::LoadU(d, counts + lane));
-  return hn::GetLane(hn::MaxOfLanes(d, largest));
-}
-
 // Where a pixel has fewer fragments.
 HWY_INLINE HWY_ATTR std::uint32_t lanesBelow(const std::uint32_t* counts, std::uint32_t n) {
   const hn::CappedTag<std::uint32_t, kBlockSize> d;
@@ -189,7 +176,7 @@ HWY_INLINE HWY_ATTR std::uint32_t lanesBelow(const std::uint32_t* counts, std::u
 HWY_ATTR void SortBlock(const FragmentBlock& block) {
   for (int row = 0; row < kBlockSize; ++row) {
     const std::uint32_t* counts = block.counts + row * kBlockSize;
-    const std::uint32_t n = largestOf(counts);
+    const std::uint32_t n = largestOf({counts, kBlockSize});
     if (n == 0) continue;
     std::uint64_t* keys = block.keys + row * kBlockSize;
     for (std::uint32_t shorter = lanesBelow(counts, n); shorter; shorter &= shorter - 1) {
@@ -294,7 +281,7 @@ HWY_ATTR BlockOrder OrderOfBlock(const FragmentBlock& block, const Tile& tile) {
   for (int row = 0; row < kBlockSize; ++row) {
     const std::uint32_t* counts = block.counts + row * kBlockSize;
     const std::uint64_t* keys = block.keys + row * kBlockSize;
-    const std::uint32_t most = largestOf(counts);
+    const std::uint32_t most = largestOf({counts, kBlockSize});
     if (most == 0) continue;
     const Neighbours neighbours = most > 1 ? closeNeighbours(keys, block.stride, most, tile) : Neighbours{};
     std::uint32_t open = neighbours.open;

@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "core/cpu/kernels.h"
+#include "core/cpu/lanes-inl.h"
 #include "core/cpu/tile.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -64,9 +65,7 @@ HWY_INLINE HWY_ATTR std::uint64_t coverage(const TriangleEdges& edges, int x, in
 #pragma GCC unroll 1
     for (int row = bounds.y0; row <= bounds.y1; ++row) {
       const auto outside = hn::Lt(hn::Or(hn::Or(e0, e1), e2), hn::Zero(d));
-      std::uint8_t byte[8] = {};
-      hn::StoreMaskBits(d, hn::Not(outside), byte);
-      bits |= (std::uint64_t{byte[0]} & ((1u << lanes) - 1)) << (row * kBlockSize + lane);
+      bits |= std::uint64_t{bitsOf(d, hn::Not(outside))} << (row * kBlockSize + lane);
       e0 = hn::Add(e0, b0), e1 = hn::Add(e1, b1), e2 = hn::Add(e2, b2);
     }
   }
@@ -235,13 +234,6 @@ HWY_INLINE HWY_ATTR void collectInRoom(const TriangleSetup* triangles, std::size
   }
 }
 
-HWY_INLINE HWY_ATTR std::uint32_t largestOf(std::span<const std::uint32_t> counts) {
-  const hn::CappedTag<std::uint32_t, kBlockSize> d;
-  auto largest = hn::Zero(d);
-  for (std::size_t i = 0; i < counts.size(); i += hn::Lanes(d)) largest = hn::Max(largest, hn::LoadU(d, counts.data() + i));
-  return hn::GetLane(hn::MaxOfLanes(d, largest));
-}
-
 // A triangle adds one fragment to a pixel at most.
 HWY_ATTR bool CollectFragments(const TriangleSetup* triangles, std::size_t count, KeyFormat format, const BlockRect& rect,
                                std::uint32_t finished, FragmentGrid& grid) {
@@ -267,7 +259,11 @@ HWY_ATTR PixelCounts CountPixels(std::span<const std::uint32_t> counts, std::uin
     covered = hn::Add(covered, hn::Min(count, hn::Set(d, 1)));
     most = hn::Max(most, count);
   }
-  const auto sum = [d](auto lanes) HWY_ATTR { return hn::GetLane(hn::SumOfLanes(d, lanes)); };
+  const auto sum = [d](auto lanes) HWY_ATTR {
+    std::uint32_t each[kBlockSize];
+    hn::StoreU(lanes, d, each);
+    return std::accumulate(each, each + hn::Lanes(d), std::uint64_t{0});
+  };
   return {sum(fragments), sum(captured), sum(covered), hn::GetLane(hn::MaxOfLanes(d, most))};
 }
 
@@ -325,9 +321,7 @@ HWY_INLINE HWY_ATTR std::uint32_t mayBeKept(const std::uint64_t* keys, const std
   std::uint32_t mask = 0;
   for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(d)) {
     const auto limit = hn::Add(hn::LoadU(u, last + lane), hn::Set(u, reach));
-    std::uint8_t byte[8] = {};
-    hn::StoreMaskBits(d, hn::Lt(hn::BitCast(d, hn::Load(u, keys + lane)), hn::BitCast(d, limit)), byte);
-    mask |= (std::uint32_t{byte[0]} & ((1u << hn::Lanes(d)) - 1)) << lane;
+    mask |= bitsOf(d, hn::Lt(hn::BitCast(d, hn::Load(u, keys + lane)), hn::BitCast(d, limit))) << lane;
   }
   return mask;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 
 #include "core/cpu/tile.h"
 #include "core/error.h"
@@ -73,7 +74,7 @@ FragmentGrid::Room FragmentGrid::room(std::uint32_t used) {
 bool FragmentGrid::grow(std::size_t least) {
   const std::size_t most = limitBytes_ / (stride_ * sizeof(std::uint64_t));
   if (least > most) return false;
-  constexpr std::size_t kFirst = 256;   // what no pixel reaches is not touched
+  constexpr std::size_t kFirst = 256;   // rarely less than a tile has triangles, and what no pixel reaches is not touched
   const std::size_t layers = std::min(std::max({least, std::size_t{capacity_} * 2, kFirst}), most);
   // The last pixel's neighbour is read.
   UninitializedVector<std::uint64_t> keys(layers * stride_ + 1);

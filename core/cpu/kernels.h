@@ -127,9 +127,10 @@ bool collectFragments(std::span<const TriangleSetup> triangles, KeyFormat format
                       FragmentGrid& grid);
 
 struct PixelCounts {
-  std::uint32_t fragments = 0, captured = 0, covered = 0, most = 0;
+  std::uint64_t fragments = 0, captured = 0, covered = 0;
+  std::uint32_t most = 0;
 };
-// Of pixels with so many fragments each, of which `nearest` at most are captured; some multiple of 64 of them.
+// Of pixels with so many fragments each, less than 2^25, of which `nearest` at most are captured; of one block or of several.
 PixelCounts countPixels(std::span<const std::uint32_t> counts, std::uint32_t nearest);
 
 // The plain z-buffer: keeps the least key of each pixel, nearest[block][64], which the caller has filled with kEmptyKey.

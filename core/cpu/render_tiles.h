@@ -221,7 +221,7 @@ class TileRenderer {
         if (finished_ >> b & 1) continue;
         // A pixel that no fragment is left to meet shows nothing, and its fold is not asked.
         const bool isEmpty = limit == kNoLimit && grid_.block(b).empty();
-        if (isEmpty || foldBlock(narrowed(b), b, limit)) finished_ |= 1u << b;
+        if (isEmpty || foldBlock(sorted(narrowed(b)), b, limit)) finished_ |= 1u << b;
         else all = false;
       }
     }
@@ -236,6 +236,11 @@ class TileRenderer {
     return window_.block();
   }
 
+  static FragmentBlock sorted(const FragmentBlock& block) {
+    sortBlock(block);
+    return block;
+  }
+
   // Folds the pixels at once whose order the keys tell, if the fold knows how to.
   void foldCertain(const FragmentBlock& block, int b, int x, int y) {
     if constexpr (requires { fold_.takesBlocks(); }) {
@@ -246,9 +251,9 @@ class TileRenderer {
     }
   }
 
+  // block: sorted. True when each of its pixels has had enough.
   bool foldBlock(const FragmentBlock& block, int b, std::uint64_t limit) {
     const auto [x, y, columns, rows] = pixelsOf(b);
-    sortBlock(block);
     walker_.begin(tile_, limit);
     const bool whole = limit == kNoLimit && !keepsNearest() && !narrows_;
     if (whole) foldCertain(block, b, x, y);

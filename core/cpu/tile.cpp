@@ -57,12 +57,22 @@ void Tile::begin(const Frame& frame, int index) {
     while (step < references_.size() - i && isOfObject(references_[i + step])) step *= 2;
     const auto some = references_.subspan(i + step / 2, std::min(step, references_.size() - i) - step / 2);
     const auto past = static_cast<std::size_t>(std::partition_point(some.begin(), some.end(), isOfObject) - references_.begin());
-    objects.push_back({object, object, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(past)});
-    while (objects.back().object + 1 < objectCount && frame.scene.repeats(objects.back().object + 1)) {
-      objects.push_back(objects.back());
-      ++objects.back().object;
+    for (std::uint32_t same = object; same < objectCount && frame.scene.originalOf(same) == object; ++same) {
+      objects.push_back({same, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(past)});
     }
   }
+}
+
+Tile::Source Tile::sourceOf(const Frame& frame, std::uint32_t index) const {
+  const std::uint32_t object = objects[index].object;
+  const Object& placed = frame.scene.objects()[object];
+  return {.index = index,
+          .turn = mirrors(placed.worldFromObject) ? -1 : 1,
+          .firstPrimitive = frame.scene.firstPrimitive(object),
+          .firstBinned = frame.scene.firstPrimitive(frame.scene.originalOf(object)),
+          .mesh = placed.mesh.get(),
+          .vertices = frame.projection.vertices.data() + frame.projection.firstVertex[object],
+          .classes = frame.planes.classesOfObject(object)};
 }
 
 void Tile::setUp(const Frame& frame) {
@@ -81,9 +91,7 @@ void Tile::setUp(const Frame& frame) {
   for (std::uint32_t i = 0; i < objects.size(); ++i) {
     TileObject& object = objects[i];
     if (!object.keep) continue;
-    const std::int32_t turn = mirrors(frame.scene.objects()[object.object].worldFromObject) ? -1 : 1;
-    const Source source{i, turn, frame.scene.firstPrimitive(object.object), frame.scene.firstPrimitive(object.binned), frame.scene.objects()[object.object].mesh.get(),
-                        frame.projection.vertices.data() + frame.projection.firstVertex[object.object], frame.planes.classesOfObject(object.object)};
+    const Source source = sourceOf(frame, i);
     // Batches run on from object to object.
     for (std::uint32_t k = object.firstReference; k < object.lastReference;) {
       const auto references = references_.subspan(k, std::min<std::size_t>(object.lastReference - k, kEdgeBatch - count));
@@ -221,7 +229,6 @@ void Tile::drop(double farthest) {
     ++kept;
   }
   setups = setups.first(kept);
-  extent.leastError = extent_.leastError;
   extent_ = extent;
 }
 

@@ -31,8 +31,7 @@ struct DepthRange {
 
 struct TileObject {
   std::uint32_t object;                     // of the scene
-  std::uint32_t binned;                     // whose references these are: its own, or those of the first of the objects that it repeats
-  std::uint32_t firstReference, lastReference;
+  std::uint32_t firstReference, lastReference;   // of the object that was binned (binning.h)
   bool keep = true;                         // cleared by a fold that has no use for the object in this tile
   DepthRange range{};                       // after findRanges: in the tile
 };
@@ -73,11 +72,12 @@ class Tile {
   struct Source {
     std::uint32_t index;                    // into objects
     std::int32_t turn;                      // -1: mirrored, its faces are turned inside out
-    std::uint32_t firstPrimitive, firstBinned;
+    std::uint32_t firstPrimitive, firstBinned;   // of the object, of the one that was binned
     const Mesh* mesh;
     const glm::ivec2* vertices;             // on the grid
     const std::uint32_t* classes;           // of its facets
   };
+  Source sourceOf(const Frame& frame, std::uint32_t index) const;
   void gather(const Frame& frame, const Source& source, std::span<const std::uint32_t> references, int at);
   void setUpBatch(const Frame& frame, int count);
   void putSetup(int i, std::uint32_t slot, TriangleSetup& t) const;
@@ -91,13 +91,13 @@ class Tile {
   struct SetupRange {
     double least, most, error;              // the bounds without the error
   };
-  // Room for all references, kept from tile to tile; so many are in use.
+  // Room for the triangles of all objects, kept from tile to tile; so many are in use.
   std::vector<TileSlot> slotRoom_;
   std::vector<TriangleSetup> setupRoom_, sortedRoom_;
   std::vector<TriangleEdges> edgeRoom_;
   std::vector<SetupRange> ranges_;          // order values of each setup in the tile
   std::size_t count_ = 0, edgeCount_ = 0;
-  DepthExtent extent_;                      // of all setups; the least error of all slots
+  DepthExtent extent_;                      // of all setups
   std::vector<std::uint64_t> order_;        // of orderByDepth, kept for their memory
 };
 

@@ -1,6 +1,6 @@
 // What an application makes of a pixel. A fold is given the fragments of a pixel front to back, coplanar ones from the last slot to the first, is told
-// when a coplanar group is complete, and may say "enough". One fold object serves one thread. A result depends on the triangles met and their grouping alone, not on the pixel or
-// the depths: neighbouring pixels with the same fragments are folded once.
+// when a coplanar group is complete, and may say "enough". One fold object serves one thread. A result depends on the triangles met and their grouping
+// alone, not on the pixel or the depths: neighbouring pixels with the same fragments are folded once.
 //
 // A fold that takesBlocks() also has foldBlock(block, tile, order, x, y), which folds at once the certain pixels of a block (block_order.h:
 // BlockOrder) and ends them: keys ascend, and runs of equal depth are coplanar. x, y: the block's first pixel in the image. It returns

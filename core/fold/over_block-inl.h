@@ -126,11 +126,13 @@ HWY_INLINE HWY_ATTR std::uint64_t blendRows(const OverBlock& block, const cpu::B
   for (int first = 0; first < cpu::kBlockPixels; first += cpu::kBlockSize) {
     const std::uint64_t* const keys = block.block.keys + first;
     const std::uint32_t* const counts = block.block.counts + first;
-    const auto out = to(first / cpu::kBlockSize);
     const auto bitsOfRow = [first](std::uint64_t pixels) { return static_cast<std::uint32_t>(pixels >> first) & 0xFF; };
+    std::uint32_t left = bitsOfRow(order.certain);
+    if (!left) continue;   // the row may lie below the image
+    const auto out = to(first / cpu::kBlockSize);
     const std::uint32_t repeats = bitsOfRow(order.repeats);
     std::uint32_t coplanarOfRow = bitsOfRow(order.coplanar);
-    for (std::uint32_t left = bitsOfRow(order.certain); left; left &= left - 1) {
+    for (; left; left &= left - 1) {
       const int x = __builtin_ctz(left);
       if (repeats >> x & 1) {
         out.repeat(x);

@@ -36,6 +36,16 @@ Scene::Scene(std::vector<Object> objects) : objects_(std::move(objects)) {
       bounds_.add(p);
     }
   }
+  originals_ = findOriginals();
+}
+
+std::vector<std::uint32_t> Scene::findOriginals() const {
+  std::vector<std::uint32_t> originals(objects_.size());
+  for (std::uint32_t i = 0; i < originals.size(); ++i) {
+    const bool repeats = i > 0 && objects_[i].mesh == objects_[i - 1].mesh && objects_[i].worldFromObject == objects_[i - 1].worldFromObject;
+    originals[i] = repeats ? originals[i - 1] : i;
+  }
+  return originals;
 }
 
 std::uint32_t Scene::objectOf(std::uint32_t primitive) const {

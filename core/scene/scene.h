@@ -33,22 +33,23 @@ class Scene {
   std::uint32_t primitiveCount() const { return firstPrimitive_.back(); }
   std::uint32_t firstPrimitive(std::uint32_t object) const { return firstPrimitive_[object]; }
   std::uint32_t objectOf(std::uint32_t primitive) const;   // O(log objects)
-  // True where the object before is the same mesh in the same place.
-  bool repeats(std::size_t object) const {
-    if (object == 0) return false;
-    const Object &before = objects_[object - 1], &here = objects_[object];
-    return here.mesh == before.mesh && here.worldFromObject == before.worldFromObject;
-  }
+  // The first of the objects up to this one that are, one after another, the same mesh in the same place.
+  std::uint32_t originalOf(std::size_t object) const { return originals_[object]; }
+  bool repeats(std::size_t object) const { return originals_[object] != object; }   // the object before
   glm::dvec3 worldVertex(std::uint32_t object, std::uint32_t vertex) const;
   const Box& bounds() const { return bounds_; }            // of all vertices used by triangles, world units
 
  private:
+  std::vector<std::uint32_t> findOriginals() const;
+
   std::vector<Object> objects_;
   std::vector<std::uint32_t> firstPrimitive_{0};
+  std::vector<std::uint32_t> originals_;
   Box bounds_;
 };
 
-// The world position of a vertex. One expression for the whole program: equal input, equal bits.
+// The world position of a vertex. One expression for the whole program: equal input, equal bits. Vectors make the same steps (place_vertices-inl.h,
+// depth_planes-inl.h).
 inline glm::dvec3 transformPoint(const glm::dmat4& m, const glm::dvec3& p) {
   return {m[0].x * p.x + m[1].x * p.y + m[2].x * p.z + m[3].x,
           m[0].y * p.x + m[1].y * p.y + m[2].y * p.z + m[3].y,

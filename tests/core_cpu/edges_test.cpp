@@ -93,6 +93,31 @@ TEST_P(Edges, holdTheSamplesOfTheirTriangles) {
   EXPECT_GT(known, 300);
 }
 
+// What places hold beyond the last triangle, or of triangles that cover nothing, does not count.
+TEST_P(Edges, theExtentIsThatOfTheTrianglesThatAreSetUp) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> slope(-1, 1);
+  for (int count = 1; count <= cpu::kEdgeBatch; ++count) {
+    cpu::EdgeBatch batch = setUp(randomTriangles(cpu::kEdgeBatch, 3.0, static_cast<unsigned>(count)));
+    for (int i = 0; i < cpu::kEdgeBatch; ++i) {
+      batch.planeA[i] = slope(random), batch.planeB[i] = slope(random), batch.planeC[i] = slope(random);
+      batch.planeLo[i] = -10, batch.planeHi[i] = 10, batch.planeError[i] = static_cast<float>(2 + slope(random));
+    }
+    cpu::DepthExtent expected = batch.extent = {};
+    for (const int some : {count, cpu::kEdgeBatch - count}) {
+      cpu::setUpEdges(batch, some, kTile);
+      for (int i = 0; i < some; ++i) {
+        if (batch.side[i] != 0) expected.add(batch.least[i], batch.most[i], batch.error[i], batch.samples[i]);
+      }
+    }
+    EXPECT_EQ(batch.extent.least, expected.least);
+    EXPECT_EQ(batch.extent.most, expected.most);
+    EXPECT_EQ(batch.extent.leastError, expected.leastError);
+    EXPECT_EQ(batch.extent.mostError, expected.mostError);
+    EXPECT_EQ(batch.extent.samples, expected.samples);
+  }
+}
+
 TEST_P(Edges, aDegenerateTriangleIsDroppedAndTheSideIsThatOfItsTurn) {
   const glm::ivec2 a(97 << 12, 33 << 12), b(110 << 12, 34 << 12), c(99 << 12, 45 << 12);
   const cpu::EdgeBatch batch = setUp({{{a, b, c}}, {{a, c, b}}, {{a, b, a}}, {{a, a, a}}, {{a, b, a + (b - a) * 3}}});

@@ -174,6 +174,31 @@ TEST(Fragments, aPixelIsFinishedOnceThoughALaterBatchSplitsItsTile) {
   }
 }
 
+TEST(FragmentGrid, pixelsAreCountedAlikeOnAnySimdTarget) {
+  std::mt19937 random(1);
+  for (const std::size_t blocks : {std::size_t{1}, std::size_t{5}, std::size_t{16}}) {
+    std::vector<std::uint32_t> counts(blocks * cpu::kBlockPixels);
+    for (std::uint32_t& count : counts) count = static_cast<std::uint32_t>(random() % 3 ? random() % 9 : 0);
+    counts[blocks * 7] = 30000000;
+    for (const std::uint32_t nearest : {1u, 4u, cpu::kAllFragments}) {
+      cpu::PixelCounts expected;
+      for (const std::uint32_t n : counts) {
+        expected.fragments += n, expected.captured += std::min(n, nearest), expected.covered += n > 0;
+        expected.most = std::max(expected.most, n);
+      }
+      for (const char* target : {"scalar", "sse4", "avx2", "best"}) {
+        cpu::chooseSimd(target);
+        const cpu::PixelCounts found = cpu::countPixels(counts, nearest);
+        EXPECT_EQ(found.fragments, expected.fragments) << target;
+        EXPECT_EQ(found.captured, expected.captured) << target;
+        EXPECT_EQ(found.covered, expected.covered) << target;
+        EXPECT_EQ(found.most, expected.most) << target;
+      }
+      cpu::chooseSimd("best");
+    }
+  }
+}
+
 // How many layers a grid takes.
 std::uint32_t layersOf(cpu::FragmentGrid& grid, const cpu::BlockRect& rect, std::uint32_t enough) {
   grid.begin(rect);

@@ -65,6 +65,36 @@ TEST(Over, lightBrighterThanWhiteStopsAtEachChannelsLimit) {
   EXPECT_EQ(overShade(vec4(250, 100, 10, 0.25f), 1.5f), vec4(255, 150, 15, 0.25f));
 }
 
+// Classes lie in groups of eight.
+TEST(Over, shadesAreThoseOfEachPlanesNormal) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  View view;
+  for (const unsigned count : {0u, 1u, 7u, 8u, 9u, 30u}) {
+    auto mesh = std::make_shared<Mesh>();
+    for (unsigned i = 0; i < 3 * count; ++i) mesh->vertices.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+    for (unsigned i = 0; i < count; ++i) mesh->triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+    const Scene scene({{mesh}});
+    const PlaneClasses planes(scene, 0);
+    ASSERT_EQ(planes.classes().size(), count);
+    for (const std::vector<Light>& lights : {std::vector<Light>{}, {{{0, 0, 1}, 0.5}}, {{{0, 0, 1}, 0.5}, {{3, 0, 4}, 0.25}, {{0, -2, 0}, 1}}}) {
+      const Shades shades = shadesOf(planes, view, true, lights);
+      ASSERT_EQ(shades.size(), count);
+      for (unsigned i = 0; i < count; ++i) {
+        double expected = 0.2;
+        const dvec3 n = planes.classes()[i].normal;
+        for (const Light& light : lights) {
+          const dvec3 l = light.toward / glm::length(light.toward);
+          const dvec3 world = l.x * view.right - l.y * view.down - l.z * view.forward;
+          expected += light.strength * std::abs(glm::dot(n, world));
+        }
+        EXPECT_NEAR(shades[i], expected, 1e-6);
+      }
+    }
+    for (const float shade : shadesOf(planes, view, false)) EXPECT_EQ(shade, 1);
+  }
+}
+
 // Two objects of a tile: one of a single colour, one with a colour a triangle.
 TEST(Over, slotsOfATileAreShadedAlikeOnAnySimdTarget) {
   std::mt19937 random(7);

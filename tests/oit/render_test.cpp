@@ -156,6 +156,30 @@ TEST(Oit, samplesAreTheMeanOfPicturesAndDepthIsTheCentres) {
   EXPECT_GT(greatest, 10);   // edges were smoothed
 }
 
+// Coplanar fragments that an opaque one hides are not met: blocks count pixels as a walk through each does.
+TEST(Oit, blocksMeetCoplanarFragmentsWhereAWalkDoes) {
+  const View view = lookAt({0.4, 0.3, 20}, {0.4, 0.3, 0}, 45, 29, 0.003);   // some blocks are cut off
+  const glm::vec4 kSolidRed(200, 0, 0, 1);
+  const std::vector<std::vector<oit::Part>> cases = {
+      {part(square(2), kSolidBlue), part(square(1), kRed), part(square(1), kGreen)},   // hidden
+      {part(square(1), kSolidBlue), part(square(1), kRed), part(square(0), kGreen)},   // the last of a pair ends no pixel
+      {part(square(1), kRed), part(square(1), kSolidRed), part(square(0), kGreen)},    // the first of a pair ends it
+      {part(square(2), kRed), part(square(1), kGreen), part(square(1), kRed), part(square(0), kSolidBlue)},
+  };
+  const std::uint64_t expectedPixels[] = {0, 1, 1, 1};
+  for (std::size_t i = 0; i < std::size(cases); ++i) {
+    oit::RenderOptions options = unlit();
+    options.wantDepth = options.wantIds = options.wantLayers = options.wantCoplanar = false;
+    oit::Renderer blocks(cases[i], options);
+    const oit::Frame frame = blocks.draw(view);
+    options.decideAllExactly = true;
+    oit::Renderer walks(cases[i], options);
+    EXPECT_EQ(walks.draw(view).color.pixels, frame.color.pixels) << "case " << i;
+    EXPECT_EQ(blocks.stats().coplanarPixels, walks.stats().coplanarPixels) << "case " << i;
+    EXPECT_EQ(blocks.stats().coplanarPixels > 0, expectedPixels[i] > 0) << "case " << i;
+  }
+}
+
 TEST(Oit, theZBufferKeepsTheNearestAlone) {
   oit::RenderOptions options = unlit();
   options.method = findMethod("zbuffer");
