@@ -16,7 +16,7 @@ struct Frame {
   const View& view;
   Projection projection;
   Bins bins;
-  DepthPlanes depths;
+  DepthPlanes depths;   // made last: tiles, which come next, read it far and wide
 
   int tileCount() const { return bins.columns * bins.rows; }
 };
