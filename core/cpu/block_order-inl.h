@@ -44,7 +44,7 @@ struct SortStep {
 };
 
 // Groups of so many layers are sorted in registers, then merged.
-inline constexpr std::uint32_t kGroup = 8, kGroupLog = 3;
+inline constexpr std::uint32_t kGroup = 16, kGroupLog = 4;
 
 template <std::uint32_t kCount>
 struct GroupSteps {
@@ -95,6 +95,14 @@ HWY_INLINE HWY_ATTR void sortPart(std::uint64_t* layers, std::uint32_t n, std::s
     case 5: return sortGroup<5>(layers, stride);
     case 6: return sortGroup<6>(layers, stride);
     case 7: return sortGroup<7>(layers, stride);
+    case 8: return sortGroup<8>(layers, stride);
+    case 9: return sortGroup<9>(layers, stride);
+    case 10: return sortGroup<10>(layers, stride);
+    case 11: return sortGroup<11>(layers, stride);
+    case 12: return sortGroup<12>(layers, stride);
+    case 13: return sortGroup<13>(layers, stride);
+    case 14: return sortGroup<14>(layers, stride);
+    case 15: return sortGroup<15>(layers, stride);
     default: return;
   }
 }
@@ -104,7 +112,7 @@ inline constexpr std::uint32_t kMostTabledLayers = 64;
 // The steps that merge the groups of up to so many layers, one after another, as finding the next one takes as long as the step.
 struct MergeSteps {
   std::uint16_t begin[kMostTabledLayers + 2] = {};
-  SortStep steps[10384] = {};
+  SortStep steps[7351] = {};
 
   HWY_ATTR constexpr MergeSteps() {
     std::uint16_t count = 0;

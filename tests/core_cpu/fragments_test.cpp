@@ -47,7 +47,7 @@ TEST(Fragments, tenThousandLayersInOnePixelKeepTheirOrder) {
   EXPECT_EQ(stacks.counts.depthComplexityMax, count);
 }
 
-// Eight layers are sorted in registers and merged by steps from a table, up to 64; beyond, steps are found one by one.
+// Sixteen layers are sorted in registers and merged by steps from a table, up to 64; beyond, steps are found one by one.
 TEST(Fragments, anyNumberOfLayersIsSortedOnAnySimdTarget) {
   std::vector<unsigned> counts(41);
   std::iota(counts.begin(), counts.end(), 0u);
