@@ -46,6 +46,7 @@ struct SortStep {
 // Groups of so many layers are sorted in registers, then merged.
 inline constexpr std::uint32_t kGroup = 16, kGroupLog = 4;
 
+// Of a group of two or more.
 template <std::uint32_t kCount>
 struct GroupSteps {
   static constexpr std::size_t count() {
@@ -53,7 +54,7 @@ struct GroupSteps {
     forEachSortStep(kCount, 0, [&](std::uint32_t, std::uint32_t) { ++n; });
     return n;
   }
-  SortStep steps[count() + 1] = {};   // none is an array of no length
+  SortStep steps[count()] = {};
 
   HWY_ATTR constexpr GroupSteps() {
     std::size_t n = 0;
