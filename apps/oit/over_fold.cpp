@@ -37,7 +37,7 @@ void OverFold::finishResult() {
 
 std::uint64_t OverFold::foldBlock(const cpu::FragmentBlock& block, const cpu::Tile& tile, const cpu::BlockOrder& order, int x, int y) {
   const Targets& targets = canvas_.targets();
-  const fold::OverBlock from{block, tile.format, colors_.data(), background_, mayEnd_};
+  const fold::OverBlock from{block, tile.keys.format, colors_.data(), background_, mayEnd_};
   const bool wantsNearest = targets.depth || targets.ids;
   if (targets.color && !targets.floats && !wantsNearest && !targets.counts()) {
     return fold::blendColors(from, order, &targets.color->at(x, y), targets.color->width);

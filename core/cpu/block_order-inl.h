@@ -246,14 +246,14 @@ struct Neighbours {
 HWY_INLINE HWY_ATTR Neighbours closeNeighbours(const std::uint64_t* keys, std::size_t stride, std::uint32_t layers, const Tile& tile) {
   const U64 u;
   const I64 d;
-  const auto reach = hn::Set(d, static_cast<std::int64_t>(2 * tile.format.uncertainty) + 1), none = hn::BitCast(d, hn::Set(u, kEmptyKey));
-  const auto depthOf = [&](hn::Vec<U64> key) HWY_ATTR { return hn::BitCast(d, hn::ShiftRightSame(key, tile.format.slotBits())); };
+  const auto reach = hn::Set(d, static_cast<std::int64_t>(2 * tile.keys.format.uncertainty) + 1), none = hn::BitCast(d, hn::Set(u, kEmptyKey));
+  const auto depthOf = [&](hn::Vec<U64> key) HWY_ATTR { return hn::BitCast(d, hn::ShiftRightSame(key, tile.keys.format.slotBits())); };
   const auto classOf = [&](hn::Vec<U64> key) HWY_ATTR {
     const auto isKey = hn::Ne(key, hn::Set(u, kEmptyKey));
-    const auto slot = hn::IfThenElseZero(isKey, hn::AndNot(key, hn::Set(u, tile.format.slotMask())));
-    // 24 bytes a slot, and the class in the upper half of the first eight.
-    static_assert(sizeof(TileSlot) == 24 && offsetof(TileSlot, planeClass) == 4 && std::endian::native == std::endian::little);
-    const auto offset = hn::BitCast(d, hn::Add(hn::ShiftLeft<4>(slot), hn::ShiftLeft<3>(slot)));
+    const auto slot = hn::IfThenElseZero(isKey, hn::AndNot(key, hn::Set(u, tile.keys.format.slotMask())));
+    // 16 bytes a slot, and the class in the upper half of the first eight.
+    static_assert(sizeof(TileSlot) == 16 && offsetof(TileSlot, planeClass) == 4 && std::endian::native == std::endian::little);
+    const auto offset = hn::BitCast(d, hn::ShiftLeft<4>(slot));
     return hn::ShiftRight<32>(hn::GatherOffset(u, reinterpret_cast<const std::uint64_t*>(tile.slots.data()), offset));
   };
   Neighbours result;
@@ -296,7 +296,7 @@ HWY_ATTR BlockOrder OrderOfBlock(const FragmentBlock& block, const Tile& tile) {
     std::uint32_t open = neighbours.open;
     for (int k = 0; k < kBlockSize && tile.coarse; ++k) open |= std::uint32_t{stackOf(block, row * kBlockSize + k, tile).hasCoarse()} << k;
     std::uint32_t alike = 0xFE, filled = filledLanes(keys);
-    for (std::uint32_t i = 0; i < most && alike; ++i) alike &= sameSlots(keys + std::size_t{i} * block.stride, tile.format);
+    for (std::uint32_t i = 0; i < most && alike; ++i) alike &= sameSlots(keys + std::size_t{i} * block.stride, tile.keys.format);
     const std::uint32_t certain = filled & ~open;
     order.certain |= std::uint64_t{certain} << (row * kBlockSize);
     order.coplanar |= std::uint64_t{neighbours.coplanar & certain} << (row * kBlockSize);
@@ -323,13 +323,13 @@ HWY_ATTR bool SameStacks(const FragmentBlock& block, const Tile& tile) {
   for (std::size_t p = 0; p < kBlockPixels; p += hn::Lanes(d)) differs = hn::Or(differs, hn::Xor(hn::LoadU(d, block.counts + p), hn::Set(d, count)));
   if (!hn::AllTrue(d, hn::Eq(differs, hn::Zero(d)))) return false;
 
-  const KeyFormat format = tile.format;
+  const KeyFormat format = tile.keys.format;
   const TileSlot* before = nullptr;
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint64_t* keys = block.layer(i);
     if (!hasOneSlot(keys, format.slotMask())) return false;
     const TileSlot& slot = tile.slots[format.slotOf(keys[0])];
-    if (slot.coarseBound) return false;
+    if (tile.coarse && tile.coarseBounds[format.slotOf(keys[0])]) return false;
     if (before && before->planeClass != slot.planeClass) {
       for (int row = 0; row < kBlockSize; ++row) {
         if (closeLanes(block.layer(i - 1) + row * kBlockSize, keys + row * kBlockSize, format, 2 * format.uncertainty)) return false;

@@ -12,6 +12,7 @@
 #include <hwy/highway.h>
 
 #include "core/cpu/edges.h"
+#include "core/cpu/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace copeel::cpu {
@@ -132,24 +133,30 @@ HWY_INLINE HWY_ATTR hn::Vec<Samples> coveredSamples(const EdgeBatch& batch, int 
   return hn::Not(outside);
 }
 
-// What small triangles cover. One that covers nothing is no triangle.
+// What small triangles cover, and the setups. A triangle that covers nothing is none.
 HWY_INLINE HWY_ATTR void coverSmall(EdgeBatch& batch, int i) {
   const Samples d;
   const hn::RebindToUnsigned<Samples> bits;
   const auto one = hn::Set(d, 1), four = hn::Set(d, 4), side = hn::Load(d, batch.side + i);
   const auto x0 = hn::Load(d, batch.x0 + i), y0 = hn::Load(d, batch.y0 + i), x1 = hn::Load(d, batch.x1 + i), y1 = hn::Load(d, batch.y1 + i);
-  hn::Store(hn::Or(hn::Or(x0, hn::ShiftLeft<8>(y0)), hn::Or(hn::ShiftLeft<16>(x1), hn::ShiftLeft<24>(y1))), d, batch.bounds + i);
+  const auto bounds = hn::BitCast(bits, hn::Or(hn::Or(x0, hn::ShiftLeft<8>(y0)), hn::Or(hn::ShiftLeft<16>(x1), hn::ShiftLeft<24>(y1))));
   const auto width = hn::Add(hn::Sub(x1, x0), one), height = hn::Add(hn::Sub(y1, y0), one);
-  const auto small = hn::And(hn::Ne(side, hn::Zero(d)), hn::Not(hn::Gt(hn::Max(width, height), four)));
+  const auto isSmall = hn::Not(hn::Gt(hn::Max(width, height), four));
   // Bits of the columns and rows that are within bounds.
   const auto columns = hn::Mul(hn::Sub(hn::Shl(one, hn::Min(hn::Max(width, one), four)), one), hn::Set(d, 0x01010101));
   const auto missing = hn::Sub(four, hn::Min(hn::Max(height, one), four));
   const auto rows = hn::BitCast(d, hn::Shr(hn::Set(bits, 0x0F0F0F0Fu), hn::BitCast(bits, hn::ShiftLeft<3>(missing))));
-  const auto covered = hn::IfThenElseZero(small, hn::And(hn::And(coveredSamples(batch, i), columns), rows));
-  hn::Store(covered, d, batch.covered + i);
-  hn::Store(hn::IfThenZeroElse(hn::And(small, hn::Eq(covered, hn::Zero(d))), side), d, batch.side + i);
+  const auto covered = hn::And(hn::And(coveredSamples(batch, i), columns), rows);
+  const auto keptSide = hn::IfThenZeroElse(hn::And(isSmall, hn::Eq(covered, hn::Zero(d))), side);
+  const auto kept = hn::Ne(keptSide, hn::Zero(d));
+  hn::Store(keptSide, d, batch.side + i);
+  batch.kept |= bitsOf(d, kept) << i;
+  batch.small |= bitsOf(d, hn::And(kept, isSmall)) << i;
   const auto count = hn::BitCast(d, hn::PopulationCount(hn::BitCast(bits, covered)));
-  hn::Store(hn::IfThenElse(small, count, hn::Load(d, batch.samples + i)), d, batch.samples + i);
+  hn::Store(hn::IfThenElse(isSmall, count, hn::Load(d, batch.samples + i)), d, batch.samples + i);
+  const auto cover = hn::IfThenElse(hn::RebindMask(bits, isSmall), hn::BitCast(bits, covered), hn::Set(bits, TriangleSetup::kHasEdges));
+  static_assert(sizeof(TriangleSetup) == 16 && offsetof(TriangleSetup, planeClass) == 4 && offsetof(TriangleSetup, cover) == 8);
+  hn::StoreInterleaved4(bounds, hn::Load(bits, batch.planeClass + i), cover, hn::Zero(bits), bits, reinterpret_cast<std::uint32_t*>(batch.setups + i));
 }
 
 // DepthExtent, lane by lane.
@@ -175,26 +182,21 @@ struct Extents {
   }
 };
 
-// Depths that the planes reach within the bounds.
-HWY_INLINE HWY_ATTR void setUpDepths(EdgeBatch& batch, int i, const TileFrame& tile, Extents& extents) {
+// Depths that the planes reach within the bounds: orderAt's operations in its order, so that none of their samples lies beyond.
+HWY_INLINE HWY_ATTR void addDepths(const EdgeBatch& batch, int i, const TileFrame& tile, Extents& extents) {
   const Exact d;
   const hn::Rebind<float, Exact> f;
+  const Whole whole;
   const Corner first = corner(batch.x0 + i, batch.y0 + i), last = corner(batch.x1 + i, batch.y1 + i);
   const Lanes a = hn::Load(d, batch.planeA + i), b = hn::Load(d, batch.planeB + i), c = hn::Load(d, batch.planeC + i);
   const Lanes lo = hn::PromoteTo(d, hn::Load(f, batch.planeLo + i)), hi = hn::PromoteTo(d, hn::Load(f, batch.planeHi + i));
-  const Lanes dc = hn::Add(hn::Mul(a, hn::Set(d, tile.u)), hn::Add(hn::Mul(b, hn::Set(d, tile.v)), c));
-  const Lanes left = hn::Mul(a, first.x), right = hn::Mul(a, last.x), top = hn::Mul(b, first.y), bottom = hn::Mul(b, last.y);
-  const auto clamped = [&](Lanes depth) HWY_ATTR { return hn::Min(hn::Max(depth, lo), hi); };
-  hn::Store(dc, d, batch.dc + i);
-  hn::Store(lo, d, batch.lo + i);
-  hn::Store(hi, d, batch.hi + i);
-  const Lanes least = clamped(hn::Add(hn::Add(dc, hn::Min(left, right)), hn::Min(top, bottom)));
-  const Lanes most = clamped(hn::Add(hn::Add(dc, hn::Max(left, right)), hn::Max(top, bottom)));
+  const Lanes u = hn::Set(d, tile.u), v = hn::Set(d, tile.v);
+  const Lanes left = hn::Mul(a, hn::Add(u, first.x)), right = hn::Mul(a, hn::Add(u, last.x));
+  const Lanes top = hn::Mul(b, hn::Add(v, first.y)), bottom = hn::Mul(b, hn::Add(v, last.y));
+  const auto clamped = [&](Lanes order) HWY_ATTR { return hn::Min(hn::Max(order, lo), hi); };
+  const Lanes least = clamped(hn::Add(hn::Min(left, right), hn::Add(hn::Min(top, bottom), c)));
+  const Lanes most = clamped(hn::Add(hn::Max(left, right), hn::Add(hn::Max(top, bottom), c)));
   const Lanes error = hn::PromoteTo(d, hn::Load(f, batch.planeError + i));
-  hn::Store(least, d, batch.least + i);
-  hn::Store(most, d, batch.most + i);
-  hn::Store(error, d, batch.error + i);
-  const Whole whole;
   const auto isSetUp = hn::Ne(hn::PromoteTo(d, hn::Load(whole, batch.side + i)), hn::Zero(d));
   extents.add(isSetUp, least, most, error, hn::PromoteTo(d, hn::Load(whole, batch.samples + i)));
 }
@@ -304,32 +306,15 @@ HWY_ATTR void SetUpEdges(EdgeBatch& batch, int count, const TileFrame& tile) {
   // What a vector holds beyond the last triangle is none.
   for (int i = count; i % group != 0; ++i) batch.p[i] = batch.q[i] = batch.r[i] = {0, 0};
   Extents extents(batch.extent);
+  batch.kept = batch.small = 0;
   for (int i = 0; i < count; i += group) {
     if (!setUpShort(batch, i, tile)) {
       for (int k = i; k < i + group; k += lanes) setUpAny(batch, k, tile);
     }
     coverSmall(batch, i);
-    for (int k = i; k < i + group; k += lanes) setUpDepths(batch, k, tile, extents);
+    for (int k = i; k < i + group; k += lanes) addDepths(batch, k, tile, extents);
   }
   extents.addTo(batch.extent);
-}
-
-HWY_ATTR void ScaleDepths(std::span<TriangleSetup> setups, const DepthScale& scale) {
-  // da, db, dc and lo go through the same steps; hi has the other bound.
-  static_assert(offsetof(TriangleSetup, lo) == offsetof(TriangleSetup, da) + 3 * sizeof(double));
-  constexpr double kNone = -std::numeric_limits<double>::infinity();
-  const hn::CappedTag<double, 4> d;
-  alignas(32) const double least[] = {0, 0, scale.least, scale.least}, bound[] = {kNone, kNone, kNone, -scale.margin}, shift[] = {0, 0, scale.shift, scale.shift};
-  const auto factor = hn::Set(d, scale.scale);
-  for (TriangleSetup& t : setups) {
-    double* const depth = &t.da;
-    for (std::size_t k = 0; k < 4; k += hn::Lanes(d)) {
-      const auto scaled = hn::Mul(hn::Sub(hn::LoadU(d, depth + k), hn::Load(d, least + k)), factor);
-      hn::StoreU(hn::Add(hn::Max(scaled, hn::Load(d, bound + k)), hn::Load(d, shift + k)), d, depth + k);
-    }
-    const double hi = (t.hi - scale.least) * scale.scale;
-    t.hi = (hi < scale.top ? hi : scale.top) + scale.shift;
-  }
 }
 
 }  // namespace HWY_NAMESPACE

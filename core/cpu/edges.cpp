@@ -11,10 +11,7 @@
 namespace copeel::cpu {
 
 HWY_EXPORT(SetUpEdges);
-HWY_EXPORT(ScaleDepths);
 
 void setUpEdges(EdgeBatch& batch, int count, const TileFrame& tile) { HWY_DYNAMIC_DISPATCH(SetUpEdges)(batch, count, tile); }
-
-void scaleDepths(std::span<TriangleSetup> setups, const DepthScale& scale) { HWY_DYNAMIC_DISPATCH(ScaleDepths)(setups, scale); }
 
 }  // namespace copeel::cpu

@@ -8,13 +8,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <span>
 
 #include "core/cpu/kernels.h"
 
 namespace copeel::cpu {
 
-inline constexpr int kEdgeBatch = 32;   // triangles; a multiple of every target's lanes
+inline constexpr int kEdgeBatch = 32;   // triangles; a bit each, and a multiple of every target's lanes
 
 // Of some triangles together.
 struct DepthExtent {
@@ -31,21 +30,22 @@ struct DepthExtent {
 struct EdgeBatch {
   // In: corners, grid coordinates.
   alignas(64) glm::ivec2 p[kEdgeBatch] = {}, q[kEdgeBatch] = {}, r[kEdgeBatch] = {};
-  // In: the DepthPlane of each (core/coplanarity/depth_planes.h).
+  // In: plane classes, and the DepthPlane of each (core/coplanarity/depth_planes.h).
+  alignas(64) std::uint32_t planeClass[kEdgeBatch] = {};
   alignas(64) double planeA[kEdgeBatch] = {}, planeB[kEdgeBatch] = {}, planeC[kEdgeBatch] = {};
   alignas(64) float planeLo[kEdgeBatch] = {}, planeHi[kEdgeBatch] = {}, planeError[kEdgeBatch] = {};
   // Out: +1 front-facing (clockwise with y down), -1 back-facing, 0 where no sample of the tile can be covered. Then the rest is undefined.
   alignas(64) std::int32_t side[kEdgeBatch];
-  // Out: samples that the bounds leave within the tile, inclusive, from its upper left one; the four in one, x0 the lowest byte.
-  alignas(64) std::int32_t x0[kEdgeBatch], y0[kEdgeBatch], x1[kEdgeBatch], y1[kEdgeBatch], bounds[kEdgeBatch];
+  // Out: samples that the bounds leave within the tile, inclusive, from its upper left one.
+  alignas(64) std::int32_t x0[kEdgeBatch], y0[kEdgeBatch], x1[kEdgeBatch], y1[kEdgeBatch];
   // Out: about how many samples of the tile it covers.
   alignas(64) std::int32_t samples[kEdgeBatch];
-  // Out: where the bounds hold 4×4 samples at most: bit x + 8·y is set where sample (x0 + x, y0 + y) is covered. 0: larger bounds.
-  alignas(64) std::int32_t covered[kEdgeBatch];
+  // Out: the setup of each, but for its slot, and its edges if its bounds hold more than 4×4 samples: kHasEdges alone.
+  TriangleSetup setups[kEdgeBatch];
+  // Out: a bit for each that is set up, and for those of them that have no edges.
+  std::uint32_t kept = 0, small = 0;
   // Out: edge i is a·x + b·y + c >= 0 on the inner side (TriangleSetup); all zero for an edge that holds all of the bounds on its inner side.
   alignas(64) std::int32_t a[3][kEdgeBatch], b[3][kEdgeBatch], c[3][kEdgeBatch];
-  // Out: the order value is clamp(planeA·x + planeB·y + dc, lo, hi) at sample (x, y); what it can be within the bounds.
-  alignas(64) double dc[kEdgeBatch], lo[kEdgeBatch], hi[kEdgeBatch], least[kEdgeBatch], most[kEdgeBatch], error[kEdgeBatch];
   DepthExtent extent;   // In, out: grows by what these triangles reach.
 };
 
@@ -57,11 +57,5 @@ struct TileFrame {
 
 // Sets up the first `count` triangles of a batch.
 void setUpEdges(EdgeBatch& batch, int count, const TileFrame& tile);
-
-// Order value s becomes (s - least) · scale + shift; within the range of the keys, [-margin, top] before the shift.
-struct DepthScale {
-  double least, scale, margin, top, shift;
-};
-void scaleDepths(std::span<TriangleSetup> setups, const DepthScale& scale);
 
 }  // namespace copeel::cpu

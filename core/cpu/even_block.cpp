@@ -9,13 +9,13 @@ namespace {
 
 enum class Cover : std::uint8_t { None, Some, All };
 
-Cover coverOf(const TriangleSetup& t, const PixelRect& block) {
+Cover coverOf(const TriangleSetup& t, const TileKeys& keys, const PixelRect& block) {
   const int right = block.x + block.width - 1, bottom = block.y + block.height - 1;
   if (t.x1 < block.x || t.x0 > right || t.y1 < block.y || t.y0 > bottom) return Cover::None;
-  if (t.covered) return Cover::Some;   // it has no edges, and is small
+  if (!t.hasEdges()) return Cover::Some;   // it is small
   // Edges that the triangle's bounds make redundant were dropped, so the bounds count.
   bool all = t.x0 <= block.x && t.x1 >= right && t.y0 <= block.y && t.y1 >= bottom;
-  const TriangleEdges& edges = *t.edges;
+  const TriangleEdges& edges = keys.edgesOf(t);
   for (int i = 0; i < 3; ++i) {
     const int corner = edges.a[i] * block.x + edges.b[i] * block.y + edges.c[i];
     const int across = edges.a[i] * (block.width - 1), down = edges.b[i] * (block.height - 1);
@@ -28,19 +28,20 @@ Cover coverOf(const TriangleSetup& t, const PixelRect& block) {
 }  // namespace
 
 bool EvenBlock::find(const Tile& tile, const PixelRect& pixels) {
-  const KeyFormat& format = tile.format;
+  const KeyFormat& format = tile.keys.format;
   const PixelRect block{pixels.x - tile.x0, pixels.y - tile.y0, pixels.width, pixels.height};
   layers_.clear();
   for (const TriangleSetup& t : tile.setups) {
-    const Cover cover = coverOf(t, block);
+    const Cover cover = coverOf(t, tile.keys, block);
     if (cover == Cover::Some) return false;
     if (cover == Cover::None) continue;
     Layer& layer = layers_.emplace_back();
+    const DepthPlane& plane = tile.keys.planeOf(t);
     for (std::uint32_t corner = 0; corner < kCorners; ++corner) {
       const int x = corner & 1 ? block.x + block.width - 1 : block.x, y = corner & 2 ? block.y + block.height - 1 : block.y;
-      const double depth = depthAt(t, x, y);
-      if (depth < t.lo || depth > t.hi) return false;
-      layer[corner] = keyAt(t, x, y, format);
+      const double order = orderAt(plane, tile.keys, x, y);
+      if (order < plane.lo || order > plane.hi) return false;
+      layer[corner] = keyAt(t, x, y, tile.keys);
     }
   }
   std::sort(layers_.begin(), layers_.end());

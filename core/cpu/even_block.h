@@ -18,7 +18,7 @@ class EvenBlock {
   bool find(const Tile& tile, const PixelRect& pixels);
   // Of each of its pixels, front to back.
   PixelStack stack(const Tile& tile) const {
-    return {layers_.front().data(), static_cast<std::uint32_t>(layers_.size()), kCorners, tile.format, tile.slots.data()};
+    return {layers_.front().data(), static_cast<std::uint32_t>(layers_.size()), kCorners, tile.keys.format, tile.slots.data()};
   }
   bool empty() const { return layers_.empty(); }
 

@@ -22,7 +22,6 @@ using I32 = hn::CappedTag<std::int32_t, kBlockSize>;
 using F64 = hn::CappedTag<double, kBlockSize>;
 using U64 = hn::CappedTag<std::uint64_t, kBlockSize>;
 
-alignas(64) inline constexpr double kIota[kBlockSize] = {0, 1, 2, 3, 4, 5, 6, 7};
 alignas(64) inline constexpr std::int32_t kIotaInt[kBlockSize] = {0, 1, 2, 3, 4, 5, 6, 7};
 
 // Samples of 8×8 that a triangle's bounds hold: rows y0 … y1, and their columns in every row.
@@ -73,8 +72,7 @@ HWY_INLINE HWY_ATTR std::uint64_t coverage(const TriangleEdges& edges, int x, in
 }
 
 // Of a block. x, y: its first pixel in the tile.
-HWY_INLINE HWY_ATTR std::uint64_t blockCoverage(const TriangleSetup& t, int x, int y) {
-  const TriangleEdges& edges = *t.edges;
+HWY_INLINE HWY_ATTR std::uint64_t blockCoverage(const TriangleSetup& t, const TriangleEdges& edges, int x, int y) {
   bool full = true;
   for (int i = 0; i < 3; ++i) {
     const std::int32_t first = edges.a[i] * x + edges.b[i] * y + edges.c[i];
@@ -86,24 +84,49 @@ HWY_INLINE HWY_ATTR std::uint64_t blockCoverage(const TriangleSetup& t, int x, i
   return full ? bounds.all() : coverage(edges, x, y, bounds);
 }
 
-// keyAt of so many pixels of a row. x, y: the first one in the tile.
+// keyAt of a triangle, so many pixels of a row at once.
 template <int kCount>
-HWY_INLINE HWY_ATTR void rowKeys(const TriangleSetup& t, int x, int y, KeyFormat format, std::uint64_t* keys) {
-  const hn::CappedTag<double, kCount> d;
-  const hn::CappedTag<std::uint64_t, kCount> u;
-  const auto da = hn::Set(d, t.da), base = hn::Set(d, t.db * y + t.dc);
-  const auto lo = hn::Set(d, t.lo), hi = hn::Set(d, t.hi), first = hn::Set(d, static_cast<double>(x));
-  const auto slot = hn::Set(u, format.lowBitsOf(t.slot));
-  for (std::size_t lane = 0; lane < kCount; lane += hn::Lanes(d)) {
-    const auto at = hn::Add(first, hn::Load(d, kIota + lane));
-    const auto depth = hn::Min(hn::Max(hn::Add(hn::Mul(da, at), base), lo), hi);
-    const auto bits = hn::ShiftRight<64 - kKeyBits>(hn::ShiftLeftSame(hn::BitCast(u, depth), 64 - format.depthBits));
-    hn::Store(hn::Or(bits, slot), u, keys + lane);
+class RowKeys {
+ public:
+  HWY_INLINE HWY_ATTR RowKeys(const TriangleSetup& t, const TileKeys& keys)
+      : u_(keys.u), v_(keys.v), up_(64 - keys.format.depthBits) {
+    const DepthPlane& plane = keys.planeOf(t);
+    const D d;
+    a_ = hn::Set(d, plane.a), b_ = hn::Set(d, plane.b), c_ = hn::Set(d, plane.c);
+    origin_ = hn::Set(d, keys.least), scale_ = hn::Set(d, keys.scale);
+    least_ = hn::Max(hn::Set(d, static_cast<double>(plane.lo)), origin_);
+    most_ = hn::Min(hn::Set(d, static_cast<double>(plane.hi)), hn::Set(d, keys.most));
+    slot_ = hn::Set(U(), keys.format.lowBitsOf(t.slot));
   }
-}
+  // x, y: the first pixel in the tile.
+  HWY_INLINE HWY_ATTR void put(int x, int y, std::uint64_t* out) const {
+    const D d;
+    const auto base = hn::Add(hn::Mul(b_, hn::Set(d, v_[y])), c_);
+    for (std::size_t lane = 0; lane < kCount; lane += hn::Lanes(d)) {
+      const auto order = hn::Min(hn::Max(hn::Add(hn::Mul(a_, hn::LoadU(d, u_ + x + lane)), base), least_), most_);
+      const auto depth = hn::Add(hn::Mul(hn::Sub(order, origin_), scale_), hn::Set(d, kBias));
+      const auto bits = hn::ShiftRight<64 - kKeyBits>(hn::ShiftLeftSame(hn::BitCast(U(), depth), up_));
+      hn::Store(hn::Or(bits, slot_), U(), out + lane);
+    }
+  }
+  // Rows y … last, kBlockSize apart.
+  HWY_INLINE HWY_ATTR void putRows(int x, int y, int last, std::uint64_t* out) const {
+#pragma GCC unroll 1
+    for (; y <= last; ++y, out += kBlockSize) put(x, y, out);
+  }
+
+ private:
+  using D = hn::CappedTag<double, kCount>;
+  using U = hn::CappedTag<std::uint64_t, kCount>;
+
+  const double *u_, *v_;
+  int up_;
+  hn::Vec<D> a_, b_, c_, origin_, scale_, least_, most_;
+  hn::Vec<U> slot_;
+};
 
 // A triangle whose bounds hold no more samples than a block is taken sample by sample, whatever blocks it lies in.
-HWY_INLINE bool isSmall(const TriangleSetup& t) { return t.covered || (t.x1 - t.x0 + 1) * (t.y1 - t.y0 + 1) <= kBlockPixels; }
+HWY_INLINE bool isSmall(const TriangleSetup& t) { return !t.hasEdges() || (t.x1 - t.x0 + 1) * (t.y1 - t.y0 + 1) <= kBlockPixels; }
 
 // Pixels of a tile lie block by block: this is one's place, kBlockPixels times the block and the pixel in it.
 constexpr std::uint32_t placeOf(unsigned x, unsigned y) {
@@ -139,48 +162,41 @@ HWY_INLINE HWY_ATTR void forEachCovered(unsigned x, unsigned y, std::uint64_t co
   }
 }
 
-// Keys of rows 0 … last, kBlockSize apart, from (x, y) on.
-template <int kCount>
-HWY_INLINE HWY_ATTR void keysOfRows(const TriangleSetup& t, int x, int y, int last, KeyFormat format, std::uint64_t* keys) {
-#pragma GCC unroll 1
-  for (int row = 0; row <= last; ++row) rowKeys<kCount>(t, x, y + row, format, keys + kBlockSize * row);
-}
-
 // In windows of 8×8 from the corner of its bounds on, of which nearly every small triangle needs one.
 template <class Visit>
-HWY_NOINLINE HWY_ATTR void visitWindows(const TriangleSetup& t, KeyFormat format, Visit visit) {
-  const TriangleEdges& edges = *t.edges;
-  alignas(64) std::uint64_t keys[kBlockPixels];
+HWY_NOINLINE HWY_ATTR void visitWindows(const TriangleSetup& t, const TileKeys& keys, Visit visit) {
+  const TriangleEdges& edges = keys.edgesOf(t);
+  alignas(64) std::uint64_t found[kBlockPixels];
   for (int y = t.y0; y <= t.y1; y += kBlockSize) {
     for (int x = t.x0; x <= t.x1; x += kBlockSize) {
       const Within bounds = withinRest(t, x, y);
       const std::uint64_t covered = coverage(edges, x, y, bounds);
-      if (t.x1 - x < 4) keysOfRows<4>(t, x, y, bounds.y1, format, keys);
-      else keysOfRows<kBlockSize>(t, x, y, bounds.y1, format, keys);
-      forEachCovered(static_cast<unsigned>(x), static_cast<unsigned>(y), covered, keys, visit);
+      if (t.x1 - x < 4) RowKeys<4>(t, keys).putRows(x, y, y + bounds.y1, found);
+      else RowKeys<kBlockSize>(t, keys).putRows(x, y, y + bounds.y1, found);
+      forEachCovered(static_cast<unsigned>(x), static_cast<unsigned>(y), covered, found, visit);
     }
   }
 }
 
 // `visit(place, key)` for the samples of a small triangle.
 template <class Visit>
-HWY_INLINE HWY_ATTR void forEachSample(const TriangleSetup& t, KeyFormat format, Visit visit) {
-  if (!t.covered) return visitWindows(t, format, visit);
-  alignas(64) std::uint64_t keys[4 * kBlockSize];
-  keysOfRows<4>(t, t.x0, t.y0, t.y1 - t.y0, format, keys);
-  forEachCovered(t.x0, t.y0, t.covered, keys, visit);
+HWY_INLINE HWY_ATTR void forEachSample(const TriangleSetup& t, const TileKeys& keys, Visit visit) {
+  if (t.hasEdges()) return visitWindows(t, keys, visit);
+  alignas(64) std::uint64_t found[4 * kBlockSize];
+  RowKeys<4>(t, keys).putRows(t.x0, t.y0, t.y1, found);
+  forEachCovered(t.x0, t.y0, t.cover, found, visit);
 }
 
 // `visit(block, x, y, covered)` for blocks of the rectangle that are not in `closed`. x, y: the block's first pixel in the tile.
 template <class Visit>
-HWY_INLINE HWY_ATTR void forEachBlock(const TriangleSetup& t, const BlockRect& rect, std::uint32_t closed, const Visit& visit) {
+HWY_INLINE HWY_ATTR void forEachBlock(const TriangleSetup& t, const TriangleEdges& edges, const BlockRect& rect, std::uint32_t closed, const Visit& visit) {
   const int bx0 = std::max(t.x0 / kBlockSize, rect.bx0), bx1 = std::min(t.x1 / kBlockSize + 1, rect.bx1);
   const int by0 = std::max(t.y0 / kBlockSize, rect.by0), by1 = std::min(t.y1 / kBlockSize + 1, rect.by1);
   for (int by = by0; by < by1; ++by) {
     for (int bx = bx0; bx < bx1; ++bx) {
       const int index = by * kBlocksPerSide + bx;
       if (closed >> index & 1) continue;
-      const std::uint64_t covered = blockCoverage(t, bx * kBlockSize, by * kBlockSize);
+      const std::uint64_t covered = blockCoverage(t, edges, bx * kBlockSize, by * kBlockSize);
       if (covered) visit(index, bx * kBlockSize, by * kBlockSize, covered);
     }
   }
@@ -199,7 +215,7 @@ HWY_INLINE HWY_ATTR bool addRow(const FragmentGrid::Room& room, std::uint32_t pl
 }
 
 // `closed`: blocks that are passed over.
-HWY_INLINE HWY_ATTR void collectInRoom(const TriangleSetup* triangles, std::size_t count, KeyFormat format, const BlockRect& rect, std::uint32_t closed,
+HWY_INLINE HWY_ATTR void collectInRoom(const TriangleSetup* triangles, std::size_t count, const TileKeys& keys, const BlockRect& rect, std::uint32_t closed,
                                        const FragmentGrid::Room& room) {
   // By value: what is written might otherwise be the room itself.
   const auto add = [room](std::uint32_t place, std::uint64_t key) HWY_ATTR {
@@ -213,21 +229,22 @@ HWY_INLINE HWY_ATTR void collectInRoom(const TriangleSetup* triangles, std::size
   for (std::size_t i = 0; i < count; ++i) {
     const TriangleSetup& t = triangles[i];
     if (isSmall(t)) {
-      if (!closed) forEachSample(t, format, add);
-      else forEachSample(t, format, addOpen);
+      if (!closed) forEachSample(t, keys, add);
+      else forEachSample(t, keys, addOpen);
       continue;
     }
-    forEachBlock(t, rect, closed, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
+    const RowKeys<kBlockSize> ofRows(t, keys);
+    forEachBlock(t, keys.edgesOf(t), rect, closed, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
       for (int row = __builtin_ctzll(covered) / kBlockSize; row < kBlockSize; ++row) {
         std::uint32_t mask = covered >> (row * kBlockSize) & 0xFF;
         if (!mask) continue;
-        alignas(64) std::uint64_t keys[kBlockSize];
-        rowKeys<kBlockSize>(t, x, y + row, format, keys);
+        alignas(64) std::uint64_t found[kBlockSize];
+        ofRows.put(x, y + row, found);
         const std::uint32_t place = static_cast<std::uint32_t>(index * kBlockPixels + row * kBlockSize);
-        if (mask == 0xFF && addRow(room, place, keys)) continue;
+        if (mask == 0xFF && addRow(room, place, found)) continue;
         for (; mask; mask &= mask - 1) {
           const unsigned k = static_cast<unsigned>(__builtin_ctz(mask));
-          add(place + k, keys[k]);
+          add(place + k, found[k]);
         }
       }
     });
@@ -235,7 +252,7 @@ HWY_INLINE HWY_ATTR void collectInRoom(const TriangleSetup* triangles, std::size
 }
 
 // A triangle adds one fragment to a pixel at most.
-HWY_ATTR bool CollectFragments(const TriangleSetup* triangles, std::size_t count, KeyFormat format, const BlockRect& rect,
+HWY_ATTR bool CollectFragments(const TriangleSetup* triangles, std::size_t count, const TileKeys& keys, const BlockRect& rect,
                                std::uint32_t finished, FragmentGrid& grid) {
   // Bounds of triangles do not reach beyond a tile.
   const std::uint32_t closed = rect.count() == 1 ? ~(1u << (rect.by0 * kBlocksPerSide + rect.bx0)) : finished;
@@ -243,7 +260,7 @@ HWY_ATTR bool CollectFragments(const TriangleSetup* triangles, std::size_t count
     const FragmentGrid::Room room = grid.room(grid.isEmpty() ? 0 : largestOf(grid.counts()));
     if (room.left == 0) return false;
     const std::size_t some = std::min(count, room.left);
-    collectInRoom(triangles, some, format, rect, closed, room);
+    collectInRoom(triangles, some, keys, rect, closed, room);
     triangles += some, count -= some;
   }
   return true;
@@ -267,23 +284,24 @@ HWY_ATTR PixelCounts CountPixels(std::span<const std::uint32_t> counts, std::uin
   return {sum(fragments), sum(captured), sum(covered), hn::GetLane(hn::MaxOfLanes(d, most))};
 }
 
-HWY_ATTR void CollectNearest(const TriangleSetup* triangles, std::size_t count, KeyFormat format, std::uint64_t* nearest) {
+HWY_ATTR void CollectNearest(const TriangleSetup* triangles, std::size_t count, const TileKeys& keys, std::uint64_t* nearest) {
   const auto keep = [&](std::uint32_t place, std::uint64_t key) HWY_ATTR { nearest[place] = std::min(nearest[place], key); };
   for (std::size_t i = 0; i < count; ++i) {
     const TriangleSetup& t = triangles[i];
     if (isSmall(t)) {
-      forEachSample(t, format, keep);
+      forEachSample(t, keys, keep);
       continue;
     }
-    forEachBlock(t, BlockRect{}, 0, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
+    const RowKeys<kBlockSize> ofRows(t, keys);
+    forEachBlock(t, keys.edgesOf(t), BlockRect{}, 0, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
       for (int row = __builtin_ctzll(covered) / kBlockSize; row < kBlockSize; ++row) {
         const std::uint32_t mask = covered >> (row * kBlockSize) & 0xFF;
         if (!mask) continue;
-        alignas(64) std::uint64_t keys[kBlockSize];
-        rowKeys<kBlockSize>(t, x, y + row, format, keys);
+        alignas(64) std::uint64_t found[kBlockSize];
+        ofRows.put(x, y + row, found);
         std::uint64_t* pixels = nearest + index * kBlockPixels + row * kBlockSize;
         for (int k = 0; k < kBlockSize; ++k) {
-          const std::uint64_t key = mask >> k & 1 ? keys[k] : kEmptyKey;
+          const std::uint64_t key = mask >> k & 1 ? found[k] : kEmptyKey;
           pixels[k] = key < pixels[k] ? key : pixels[k];
         }
       }
@@ -326,33 +344,34 @@ HWY_INLINE HWY_ATTR std::uint32_t mayBeKept(const std::uint64_t* keys, const std
   return mask;
 }
 
-HWY_ATTR void CollectKNearest(const TriangleSetup* triangles, std::size_t count, KeyFormat format, const KeyDoubt& doubt, NearestGrid& grid) {
+HWY_ATTR void CollectKNearest(const TriangleSetup* triangles, std::size_t count, const TileKeys& keys, const KeyDoubt& doubt, NearestGrid& grid) {
   const std::uint32_t k = grid.k();
   const std::size_t lastLayer = std::size_t{k - 1} * kBlockPixels;
   const auto keep = [&](std::uint32_t place, std::uint64_t key) HWY_ATTR {
     NearestGrid::Block& block = grid.block(place / kBlockPixels);
     const std::uint32_t pixel = place % kBlockPixels;
     ++block.seen[pixel];
-    if (key < block.keys[lastLayer + pixel] + doubt.reach) keepNearest(block, k, static_cast<int>(pixel), key, format, doubt);
+    if (key < block.keys[lastLayer + pixel] + doubt.reach) keepNearest(block, k, static_cast<int>(pixel), key, keys.format, doubt);
   };
   for (std::size_t i = 0; i < count; ++i) {
     const TriangleSetup& t = triangles[i];
     if (isSmall(t)) {
-      forEachSample(t, format, keep);
+      forEachSample(t, keys, keep);
       continue;
     }
-    forEachBlock(t, BlockRect{}, 0, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
+    const RowKeys<kBlockSize> ofRows(t, keys);
+    forEachBlock(t, keys.edgesOf(t), BlockRect{}, 0, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
       NearestGrid::Block& block = grid.block(index);
       for (int row = __builtin_ctzll(covered) / kBlockSize; row < kBlockSize; ++row) {
         std::uint32_t mask = covered >> (row * kBlockSize) & 0xFF;
         if (!mask) continue;
-        alignas(64) std::uint64_t keys[kBlockSize];
-        rowKeys<kBlockSize>(t, x, y + row, format, keys);
+        alignas(64) std::uint64_t found[kBlockSize];
+        ofRows.put(x, y + row, found);
         for (int lane = 0; lane < kBlockSize; ++lane) block.seen[row * kBlockSize + lane] += mask >> lane & 1;
-        mask &= mayBeKept(keys, block.keys.get() + lastLayer + row * kBlockSize, doubt.reach);
+        mask &= mayBeKept(found, block.keys.get() + lastLayer + row * kBlockSize, doubt.reach);
         for (; mask; mask &= mask - 1) {
           const int lane = __builtin_ctz(mask);
-          keepNearest(block, k, row * kBlockSize + lane, keys[lane], format, doubt);
+          keepNearest(block, k, row * kBlockSize + lane, found[lane], keys.format, doubt);
         }
       }
     });

@@ -24,19 +24,19 @@ HWY_EXPORT(CountPixels);
 HWY_EXPORT(CollectKNearest);
 HWY_EXPORT(SimdName);
 
-bool collectFragments(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint32_t finished,
+bool collectFragments(std::span<const TriangleSetup> triangles, const TileKeys& keys, const BlockRect& rect, std::uint32_t finished,
                       FragmentGrid& grid) {
-  return HWY_DYNAMIC_DISPATCH(CollectFragments)(triangles.data(), triangles.size(), format, rect, finished, grid);
+  return HWY_DYNAMIC_DISPATCH(CollectFragments)(triangles.data(), triangles.size(), keys, rect, finished, grid);
 }
 
 PixelCounts countPixels(std::span<const std::uint32_t> counts, std::uint32_t nearest) { return HWY_DYNAMIC_DISPATCH(CountPixels)(counts, nearest); }
 
-void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, std::uint64_t* nearest) {
-  HWY_DYNAMIC_DISPATCH(CollectNearest)(triangles.data(), triangles.size(), format, nearest);
+void collectNearest(std::span<const TriangleSetup> triangles, const TileKeys& keys, std::uint64_t* nearest) {
+  HWY_DYNAMIC_DISPATCH(CollectNearest)(triangles.data(), triangles.size(), keys, nearest);
 }
 
-void collectKNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const KeyDoubt& doubt, NearestGrid& grid) {
-  HWY_DYNAMIC_DISPATCH(CollectKNearest)(triangles.data(), triangles.size(), format, doubt, grid);
+void collectKNearest(std::span<const TriangleSetup> triangles, const TileKeys& keys, const KeyDoubt& doubt, NearestGrid& grid) {
+  HWY_DYNAMIC_DISPATCH(CollectKNearest)(triangles.data(), triangles.size(), keys, doubt, grid);
 }
 
 const char* simdInUse() { return HWY_DYNAMIC_DISPATCH(SimdName)(); }

@@ -14,6 +14,7 @@
 #include <memory>
 #include <span>
 
+#include "core/coplanarity/depth_planes.h"
 #include "core/cpu/projection.h"
 #include "core/uninitialized.h"
 
@@ -30,18 +31,20 @@ inline constexpr std::uint64_t kEmptyKey = 0x7FE0000000000000ull;   // greater t
 // top-left rule folded into c.
 struct TriangleEdges {
   std::int32_t a[3], b[3], c[3];
+  std::int32_t samples;             // about how many it covers
 };
 
-// A triangle in a tile: a line of the cache. Depth d = clamp(da·x + (db·y + dc), lo, hi) in key units plus 2^52.
-struct alignas(64) TriangleSetup {
+// A triangle in a tile.
+struct alignas(16) TriangleSetup {
   std::uint8_t x0, y0, x1, y1;      // bounds of covered samples, inclusive
+  std::uint32_t planeClass;
+  std::uint32_t cover;              // bit x + 8·y, x and y up to 3: sample (x0 + x, y0 + y) is covered; or kHasEdges and the place of its edges
   std::uint32_t slot;
-  std::uint32_t covered;            // EdgeBatch::covered
-  std::uint16_t samples;            // about how many it covers
-  const TriangleEdges* edges;       // where `covered` is 0
-  double da, db, dc, lo, hi;
+
+  static constexpr std::uint32_t kHasEdges = 1u << 31;   // its bounds hold more than 4×4 samples
+  bool hasEdges() const { return cover & kHasEdges; }
+  std::uint32_t edges() const { return cover & ~kHasEdges; }
 };
-static_assert(sizeof(TriangleSetup) == 64);
 
 inline constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};   // of depths of keys
 
@@ -55,13 +58,32 @@ struct KeyFormat {
   std::uint64_t lowBitsOf(std::uint32_t slot) const { return ~std::uint64_t{slot} & slotMask(); }   // of a key
 };
 
-// Before it is clamped. x, y: a pixel of the tile.
-inline double depthAt(const TriangleSetup& t, int x, int y) { return t.da * static_cast<double>(x) + (t.db * static_cast<double>(y) + t.dc); }
+inline constexpr double kBias = 4503599627370496.0;   // 2^52: beyond it a double counts whole numbers
 
-inline std::uint64_t keyAt(const TriangleSetup& t, int x, int y, KeyFormat format) {
+// What makes keys of the triangles of a tile.
+struct TileKeys {
+  KeyFormat format;
+  const DepthPlane* planes = nullptr;     // by plane class
+  const TriangleEdges* edges = nullptr;   // of those that have any
+  double least = 0, most = 0;             // order values of the tile
+  double scale = 1;                       // key units of one
+  double u[kTileSize + kBlockSize], v[kTileSize];   // of columns and rows, in the planes' coordinates: eight columns may be read from any on
+
+  const TriangleEdges& edgesOf(const TriangleSetup& t) const { return edges[t.edges()]; }
+  const DepthPlane& planeOf(const TriangleSetup& t) const { return planes[t.planeClass]; }
+  std::int32_t samplesOf(const TriangleSetup& t) const { return t.hasEdges() ? edgesOf(t).samples : std::popcount(t.cover); }
+};
+
+// The order value before it is clamped. x, y: a pixel of the tile.
+inline double orderAt(const DepthPlane& plane, const TileKeys& keys, int x, int y) { return plane.a * keys.u[x] + (plane.b * keys.v[y] + plane.c); }
+
+inline std::uint64_t keyAt(const TriangleSetup& t, int x, int y, const TileKeys& keys) {
+  const DepthPlane& plane = keys.planeOf(t);
+  const double least = std::max<double>(plane.lo, keys.least), most = std::min<double>(plane.hi, keys.most);
+  const double order = std::min(std::max(orderAt(plane, keys, x, y), least), most);
   // The mantissa of 2^52 + n is n: shifted up it loses exponent and sign, shifted back it leaves the two clear bits of a key.
-  const auto bits = std::bit_cast<std::uint64_t>(std::min(std::max(depthAt(t, x, y), t.lo), t.hi));
-  return (bits << (64 - format.depthBits)) >> (64 - kKeyBits) | format.lowBitsOf(t.slot);
+  const auto bits = std::bit_cast<std::uint64_t>((order - keys.least) * keys.scale + kBias);
+  return (bits << (64 - keys.format.depthBits)) >> (64 - kKeyBits) | keys.format.lowBitsOf(t.slot);
 }
 
 // A range of blocks of a tile: [bx0, bx1) × [by0, by1).
@@ -123,7 +145,7 @@ class FragmentGrid {
 
 // Appends the fragments of the triangles to the grid, begun with the same rectangle: a tile or one block. Blocks with a bit in `finished` are
 // passed over. False when the grid could not grow.
-bool collectFragments(std::span<const TriangleSetup> triangles, KeyFormat format, const BlockRect& rect, std::uint32_t finished,
+bool collectFragments(std::span<const TriangleSetup> triangles, const TileKeys& keys, const BlockRect& rect, std::uint32_t finished,
                       FragmentGrid& grid);
 
 struct PixelCounts {
@@ -134,7 +156,7 @@ struct PixelCounts {
 PixelCounts countPixels(std::span<const std::uint32_t> counts, std::uint32_t nearest);
 
 // The plain z-buffer: keeps the least key of each pixel, nearest[block][64], which the caller has filled with kEmptyKey.
-void collectNearest(std::span<const TriangleSetup> triangles, KeyFormat format, std::uint64_t* nearest);
+void collectNearest(std::span<const TriangleSetup> triangles, const TileKeys& keys, std::uint64_t* nearest);
 
 // The K nearest fragments of the pixels of a tile: a buffer of K keys a pixel, ascending. What a full buffer has no place for is counted.
 //
@@ -171,7 +193,7 @@ struct KeyDoubt {
   const TileSlot* slots;
 };
 
-void collectKNearest(std::span<const TriangleSetup> triangles, KeyFormat format, const KeyDoubt& doubt, NearestGrid& grid);
+void collectKNearest(std::span<const TriangleSetup> triangles, const TileKeys& keys, const KeyDoubt& doubt, NearestGrid& grid);
 
 // Restricts the targets to those at most as wide as named: "best", "avx2", "sse4", "scalar". For tests; not to be called while drawing.
 void chooseSimd(const char* name);

@@ -33,7 +33,7 @@ void renderNearestTiles(const Frame& frame, MakeTake makeTake) {
       tile.setUp(frame);
       tile.finish(std::numeric_limits<double>::infinity(), false);
       std::fill(local.nearest.begin(), local.nearest.end(), kEmptyKey);
-      collectNearest(tile.setups, tile.format, local.nearest.data());
+      collectNearest(tile.setups, tile.keys, local.nearest.data());
       local.take(tile, local.nearest.data());
     }
   }, Split::ToGrain);
@@ -49,7 +49,7 @@ void renderNearest(const Frame& frame, const Visit& visit) {
         for (int p = 0; p < kBlockPixels; ++p) {
           const std::uint64_t key = keys[b * kBlockPixels + p];
           if (key == kEmptyKey) continue;
-          visit(tile.x0 + x0 + p % kBlockSize, tile.y0 + y0 + p / kBlockSize, tile.slots[tile.format.slotOf(key)], tile);
+          visit(tile.x0 + x0 + p % kBlockSize, tile.y0 + y0 + p / kBlockSize, tile.slots[tile.keys.format.slotOf(key)], tile);
         }
       }
     };

@@ -69,6 +69,7 @@ class TileRenderer {
     finished_ = narrows_ ? emptyBlocks() : 0;
     if (finished_ == kAllBlocks) return;
     tile_.finish(farthest, options_.decideAllExactly);
+    if (narrows_) tile_.orderBySlot();
     if (hasLargeFaces()) drawEvenBlocks();
     if (finished_ != kAllBlocks) drawRect(wholeTile());
   }
@@ -139,12 +140,12 @@ class TileRenderer {
     narrows_ = false;
     const BlockRect rect = wholeTile();
     if (tile_.coarse || fold_.needsWholeStack()) return drawRect(rect);
-    const KeyDoubt doubt{(2 * tile_.format.uncertainty + 2) << tile_.format.slotBits(), tile_.slots.data()};
+    const KeyDoubt doubt{(2 * tile_.keys.format.uncertainty + 2) << tile_.keys.format.slotBits(), tile_.slots.data()};
     nearest_.clear();
     // Met nearest first, most fragments turn back at once; of small triangles the order costs more than it saves.
     const double layers = tile_.layers();
     if (layers > 2.0 * options_.nearest && layers * tile_.width * tile_.height > kSamplesToOrder * static_cast<double>(tile_.setups.size())) tile_.orderByDepth();
-    collectKNearest(tile_.setups, tile_.format, doubt, nearest_);
+    collectKNearest(tile_.setups, tile_.keys, doubt, nearest_);
     for (int by = rect.by0; by < rect.by1; ++by) {
       for (int bx = rect.bx0; bx < rect.bx1; ++bx) foldNearest(bx, by);
     }
@@ -165,8 +166,8 @@ class TileRenderer {
   bool endsOpen(const FragmentBlock& kept, int p) const {
     const PixelStack stack = stackOf(kept, p, tile_);
     const std::uint32_t last = stack.count - 1, planeClass = tile_.slots[stack.slot(last)].planeClass;
-    const std::uint64_t depth = tile_.format.depthOf(stack.key(last));
-    for (std::uint32_t i = last; i-- > 0 && tile_.format.depthOf(stack.key(i)) + 2 * tile_.format.uncertainty >= depth;) {
+    const std::uint64_t depth = tile_.keys.format.depthOf(stack.key(last));
+    for (std::uint32_t i = last; i-- > 0 && tile_.keys.format.depthOf(stack.key(i)) + 2 * tile_.keys.format.uncertainty >= depth;) {
       if (tile_.slots[stack.slot(i)].planeClass != planeClass) return true;
     }
     return false;
@@ -182,7 +183,7 @@ class TileRenderer {
     const std::span<const TriangleSetup> all = tile_.setups;
     for (std::size_t begin = 0;; layers *= kBatchGrowth) {
       const std::size_t end = batches ? std::max(tile_.setupsOfLayers(layers), begin) : all.size();
-      if (!collectFragments(all.subspan(begin, end - begin), tile_.format, rect, finished_, grid_)) return split(rect);
+      if (!collectFragments(all.subspan(begin, end - begin), tile_.keys, rect, finished_, grid_)) return split(rect);
       const bool last = end == all.size();
       if (foldRect(rect, last ? kNoLimit : tile_.nearest[end]) || last) break;
       begin = end;

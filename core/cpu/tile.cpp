@@ -14,10 +14,9 @@
 namespace copeel::cpu {
 namespace {
 
-constexpr double kBias = 4503599627370496.0;              // 2^52: beyond it a double counts whole numbers
 constexpr std::uint64_t kMostUncertainty = std::uint64_t{1} << 50;   // key units: nothing is certain
-// Two sums near 2^52 and a clamp round to whole key units.
-constexpr double kKeyRounding = 3;
+// A sum near 2^52 rounds to whole key units.
+constexpr double kKeyRounding = 1;
 constexpr double kFinestError = 4;   // key units, of the most certain plane of a tile
 
 // Of a value in [0, 2^63).
@@ -83,9 +82,14 @@ void Tile::setUp(const Frame& frame) {
   };
   makeRoom(slotRoom_);
   makeRoom(setupRoom_);
+  makeRoom(withEdges_);
   makeRoom(edgeRoom_);
-  makeRoom(ranges_);
-  count_ = edgeCount_ = 0;
+  keys.planes = frame.depths.data();
+  keys.edges = edgeRoom_.data();
+  const double u = x0 + 0.5 + frame.view.offset.x - frame.view.width * 0.5, v = y0 + 0.5 + frame.view.offset.y - frame.view.height * 0.5;
+  for (std::size_t i = 0; i < std::size(keys.u); ++i) keys.u[i] = u + static_cast<double>(i);
+  for (std::size_t i = 0; i < std::size(keys.v); ++i) keys.v[i] = v + static_cast<double>(i);
+  count_ = smallCount_ = 0;
   edges_.extent = {};
   int count = 0;
   for (std::uint32_t i = 0; i < objects.size(); ++i) {
@@ -102,6 +106,7 @@ void Tile::setUp(const Frame& frame) {
     }
   }
   setUpBatch(frame, count);
+  std::copy_n(withEdges_.begin(), count_ - smallCount_, setupRoom_.begin() + static_cast<std::ptrdiff_t>(smallCount_));
   slots = {slotRoom_.data(), count_};
   setups = {setupRoom_.data(), count_};
   extent_ = edges_.extent;
@@ -117,7 +122,8 @@ void Tile::gather(const Frame& frame, const Source& source, std::span<const std:
     const std::uint32_t planeClass = source.classes[source.mesh->facetOf(triangle)];
     __builtin_prefetch(&frame.depths[planeClass]);
     __builtin_prefetch(&frame.depths[planeClass].error);
-    gathered_[at + i] = {source.firstPrimitive + triangle, planeClass, source.index, source.turn, 0};
+    gathered_[at + i] = {source.firstPrimitive + triangle, planeClass, source.index, source.turn};
+    edges_.planeClass[at + i] = planeClass;
     corners[i] = source.mesh->triangles[triangle];
   }
   for (std::size_t i = 0; i < count; ++i) {
@@ -133,80 +139,85 @@ void Tile::gather(const Frame& frame, const Source& source, std::span<const std:
 
 void Tile::setUpBatch(const Frame& frame, int count) {
   for (int i = 0; i < count; ++i) {
-    const DepthPlane& plane = frame.depths[gathered_[i].planeClass];
+    const DepthPlane& plane = keys.planes[edges_.planeClass[i]];
     edges_.planeA[i] = plane.a, edges_.planeB[i] = plane.b, edges_.planeC[i] = plane.c;
     edges_.planeLo[i] = plane.lo, edges_.planeHi[i] = plane.hi, edges_.planeError[i] = plane.error;
   }
-  // The tile's first sample, in the depth planes' coordinates.
-  const double u = x0 + 0.5 + frame.view.offset.x - frame.view.width * 0.5;
-  const double v = y0 + 0.5 + frame.view.offset.y - frame.view.height * 0.5;
-  setUpEdges(edges_, count, {x0, y0, width, height, frame.projection.grid.bits, u, v});
-  std::size_t at = count_, edgesAt = edgeCount_;   // local ones stay in registers
+  setUpEdges(edges_, count, {x0, y0, width, height, frame.projection.grid.bits, keys.u[0], keys.v[0]});
+  const std::size_t first = count_;
+  std::size_t at = count_, smallAt = smallCount_;   // local ones stay in registers
   TileSlot* const slotsHere = slotRoom_.data();
   TriangleSetup* const setupsHere = setupRoom_.data();
-  TriangleEdges* const edgesHere = edgeRoom_.data();
-  SetupRange* const rangesHere = ranges_.data();
+  // What is not kept is overwritten by the next: no branch would foretell it.
   for (int i = 0; i < count; ++i) {
-    if (edges_.side[i] == 0) continue;
     slotsHere[at] = gathered_[i];
     slotsHere[at].side *= edges_.side[i];
-    rangesHere[at] = {edges_.least[i], edges_.most[i], edges_.error[i]};
-    putSetup(i, static_cast<std::uint32_t>(at), setupsHere[at]);
-    if (!edges_.covered[i]) putEdges(i, edgesHere[edgesAt]), setupsHere[at].edges = &edgesHere[edgesAt++];
-    ++at;
+    setupsHere[smallAt] = edges_.setups[i];
+    setupsHere[smallAt].slot = static_cast<std::uint32_t>(at);
+    at += edges_.kept >> i & 1;
+    smallAt += edges_.small >> i & 1;
+  }
+  for (std::uint32_t left = edges_.kept & ~edges_.small; left; left &= left - 1) {
+    const int i = std::countr_zero(left);
+    const std::size_t place = first - smallCount_ + static_cast<std::size_t>(std::popcount(edges_.kept & ~edges_.small & ((left & -left) - 1)));
+    edgeRoom_[place] = edgesOf(i);
+    TriangleSetup& t = withEdges_[place];
+    t = edges_.setups[i];
+    t.cover |= static_cast<std::uint32_t>(place);
+    t.slot = static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(std::popcount(edges_.kept & ((left & -left) - 1)));
   }
   count_ = at;
-  edgeCount_ = edgesAt;
+  smallCount_ = smallAt;
 }
 
-// Of the triangle at a place of the batch. Its depth in order values yet.
-inline void Tile::putSetup(int i, std::uint32_t slot, TriangleSetup& t) const {
-  const auto bounds = static_cast<std::uint32_t>(edges_.bounds[i]);
-  t.x0 = static_cast<std::uint8_t>(bounds), t.y0 = static_cast<std::uint8_t>(bounds >> 8);
-  t.x1 = static_cast<std::uint8_t>(bounds >> 16), t.y1 = static_cast<std::uint8_t>(bounds >> 24);
-  t.slot = slot;
-  t.covered = static_cast<std::uint32_t>(edges_.covered[i]);
-  t.samples = static_cast<std::uint16_t>(edges_.samples[i]);
-  t.edges = nullptr;
-  t.da = edges_.planeA[i], t.db = edges_.planeB[i], t.dc = edges_.dc[i], t.lo = edges_.lo[i], t.hi = edges_.hi[i];
-}
-
-inline void Tile::putEdges(int i, TriangleEdges& edges) const {
+// Of the triangle at a place of the batch.
+inline TriangleEdges Tile::edgesOf(int i) const {
+  TriangleEdges edges;
   for (int k = 0; k < 3; ++k) edges.a[k] = edges_.a[k][i], edges.b[k] = edges_.b[k][i], edges.c[k] = edges_.c[k][i];
+  edges.samples = edges_.samples[i];
+  return edges;
+}
+
+// orderAt at the corners of the bounds: no sample lies beyond.
+DepthRange Tile::rangeOf(const TriangleSetup& t) const {
+  const DepthPlane& plane = keys.planeOf(t);
+  const double left = plane.a * keys.u[t.x0], right = plane.a * keys.u[t.x1], top = plane.b * keys.v[t.y0], bottom = plane.b * keys.v[t.y1];
+  return {std::clamp<double>(std::min(left, right) + (std::min(top, bottom) + plane.c), plane.lo, plane.hi),
+          std::clamp<double>(std::max(left, right) + (std::max(top, bottom) + plane.c), plane.lo, plane.hi)};
 }
 
 void Tile::findRanges() {
   for (TileObject& object : objects) object.range = {};
-  for (std::size_t i = 0; i < setups.size(); ++i) {
-    const SetupRange& range = ranges_[i];
-    objects[slots[setups[i].slot].object].range.add(range.least - range.error, range.most + range.error);
+  for (const TriangleSetup& t : setups) {
+    const DepthRange range = rangeOf(t);
+    const double error = keys.planeOf(t).error;
+    objects[slots[t.slot].object].range.add(range.least - error, range.most + error);
   }
 }
 
 void Tile::rangesOfBlocks(std::vector<DepthRange>& ranges) const {
   ranges.assign(kBlocksPerTile * objects.size(), {});
   constexpr int kLast = kBlockSize - 1;
-  for (std::size_t n = 0; n < setups.size(); ++n) {
-    const TriangleSetup& t = setups[n];
+  for (const TriangleSetup& t : setups) {
     const std::uint32_t object = slots[t.slot].object;
     if (!objects[object].keep) continue;
-    const double error = ranges_[n].error;
+    const double error = keys.planeOf(t).error;
     for (int by = t.y0 / kBlockSize; by <= t.y1 / kBlockSize; ++by) {
       for (int bx = t.x0 / kBlockSize; bx <= t.x1 / kBlockSize; ++bx) {
         const int x = bx * kBlockSize, y = by * kBlockSize;
         // An edge with the whole block on its outer side keeps the triangle out.
         bool outside = false;
-        for (int i = 0; i < 3 && t.edges; ++i) {
-          const std::int32_t a = t.edges->a[i], b = t.edges->b[i];
-          outside |= a * (a > 0 ? x + kLast : x) + b * (b > 0 ? y + kLast : y) + t.edges->c[i] < 0;
+        for (int i = 0; i < 3 && t.hasEdges(); ++i) {
+          const TriangleEdges& edges = keys.edgesOf(t);
+          const std::int32_t a = edges.a[i], b = edges.b[i];
+          outside |= a * (a > 0 ? x + kLast : x) + b * (b > 0 ? y + kLast : y) + edges.c[i] < 0;
         }
         if (outside) continue;
-        const int left = std::max<int>(t.x0, x), right = std::min<int>(t.x1, x + kLast);
-        const int top = std::max<int>(t.y0, y), bottom = std::min<int>(t.y1, y + kLast);
-        const double small = t.dc + t.da * (t.da < 0 ? right : left) + t.db * (t.db < 0 ? bottom : top);
-        const double large = t.dc + t.da * (t.da < 0 ? left : right) + t.db * (t.db < 0 ? top : bottom);
-        ranges[(by * kBlocksPerSide + bx) * objects.size() + object].add(std::clamp(small, t.lo, t.hi) - error,
-                                                                         std::clamp(large, t.lo, t.hi) + error);
+        TriangleSetup part = t;
+        part.x0 = std::max<std::uint8_t>(t.x0, static_cast<std::uint8_t>(x)), part.x1 = std::min<std::uint8_t>(t.x1, static_cast<std::uint8_t>(x + kLast));
+        part.y0 = std::max<std::uint8_t>(t.y0, static_cast<std::uint8_t>(y)), part.y1 = std::min<std::uint8_t>(t.y1, static_cast<std::uint8_t>(y + kLast));
+        const DepthRange range = rangeOf(part);
+        ranges[(by * kBlocksPerSide + bx) * objects.size() + object].add(range.least - error, range.most + error);
       }
     }
   }
@@ -221,35 +232,35 @@ void Tile::finish(double farthest, bool decideAllExactly) {
 void Tile::drop(double farthest) {
   std::size_t kept = 0;
   DepthExtent extent;
-  for (std::size_t i = 0; i < setups.size(); ++i) {
-    const SetupRange& range = ranges_[i];
-    if (!objects[slots[setups[i].slot].object].keep || range.least > farthest) continue;
-    extent.add(range.least, range.most, range.error, setups[i].samples);
-    if (kept < i) setups[kept] = setups[i], ranges_[kept] = range;
-    ++kept;
+  for (const TriangleSetup& t : setups) {
+    const DepthRange range = rangeOf(t);
+    if (!objects[slots[t.slot].object].keep || range.least > farthest) continue;
+    extent.add(range.least, range.most, keys.planeOf(t).error, keys.samplesOf(t));
+    setups[kept++] = t;
   }
   setups = setups.first(kept);
   extent_ = extent;
 }
 
 void Tile::scaleDepths(bool decideAllExactly) {
+  KeyFormat& format = keys.format;
   const int slotBits = std::max(static_cast<int>(std::bit_width(slots.size())), kKeyBits - kMostDepthBits);
   format.depthBits = kKeyBits - slotBits;
-  // A margin of 2^-8 of the range at both ends takes the rounding.
-  const double units = std::ldexp(1.0, format.depthBits), margin = units / 256;
-  const double range = extent_.most - extent_.least, least = extent_.least;
+  // A margin of 2^-8 of the range takes the rounding.
+  const double units = std::ldexp(1.0, format.depthBits) * (1 - 1.0 / 256), range = extent_.most - extent_.least;
   // A range so small that rounding would fill thousands of key units gains nothing from a larger scale.
   const double limit = std::clamp(kFinestError / extent_.leastError, 1e-200, 1e200);
-  const double scale = std::min(range > 0 ? (units - 2 * margin) / range : 1.0, limit);
-  cpu::scaleDepths(setups, {least, scale, margin, units - 2 * margin, kBias + margin});
+  keys.scale = std::min(range > 0 ? units / range : 1.0, limit);
+  keys.least = extent_.least, keys.most = extent_.most;
   // One bound for all but the coarse: then a gap between neighbours in sorted order parts everything before from everything after.
-  const auto inUnits = [scale](double error) { return error * scale * 1.25 + kKeyRounding; };
+  const auto inUnits = [this](double error) { return error * keys.scale * 1.25 + kKeyRounding; };
   coarse = decideAllExactly || inUnits(extent_.mostError) > double{kCoarse};
+  coarseBounds.assign(coarse ? slots.size() : 0, 0);
   double common = coarse ? 0 : inUnits(extent_.mostError);
   for (std::size_t i = 0; coarse && i < setups.size(); ++i) {
-    const double error = inUnits(ranges_[i].error);
+    const double error = inUnits(keys.planeOf(setups[i]).error);
     if (error <= double{kCoarse} && !decideAllExactly) common = std::max(common, error);
-    else slots[setups[i].slot].coarseBound = decideAllExactly ? kMostUncertainty : roundedUp(std::min(error, double{kMostUncertainty}));
+    else coarseBounds[setups[i].slot] = decideAllExactly ? kMostUncertainty : roundedUp(std::min(error, double{kMostUncertainty}));
   }
   format.uncertainty = roundedUp(common);
 }
@@ -257,19 +268,18 @@ void Tile::scaleDepths(bool decideAllExactly) {
 std::size_t Tile::setupsOfLayers(double layers) const {
   double samples = layers * width * height;
   std::size_t count = 0;
-  while (count < setups.size() && samples > 0) samples -= setups[count++].samples;
+  while (count < setups.size() && samples > 0) samples -= keys.samplesOf(setups[count++]);
   return count;
 }
 
 void Tile::orderByDepth() {
   // As in a key, the low bits hold an index: a setup's is never greater than a slot's.
-  const int indexBits = format.slotBits();
+  const int indexBits = keys.format.slotBits();
   order_.clear();
   for (std::uint32_t i = 0; i < setups.size(); ++i) {
     const TriangleSetup& t = setups[i];
-    const double least = t.dc + std::min(t.da * t.x0, t.da * t.x1) + std::min(t.db * t.y0, t.db * t.y1);
-    const auto depth = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::clamp(least, t.lo, t.hi) - kBias));
-    const std::uint64_t reach = std::max(slots[t.slot].coarseBound, format.uncertainty) + 2;
+    const auto depth = static_cast<std::uint64_t>((rangeOf(t).least - keys.least) * keys.scale);
+    const std::uint64_t reach = std::max(coarse ? coarseBounds[t.slot] : 0, keys.format.uncertainty) + 2;
     order_.push_back((depth > reach ? depth - reach : 0) << indexBits | i);
   }
   std::sort(order_.begin(), order_.end());
@@ -280,6 +290,10 @@ void Tile::orderByDepth() {
     nearest.push_back(o >> indexBits);
   }
   setups = sortedRoom_;
+}
+
+void Tile::orderBySlot() {
+  std::sort(setups.begin(), setups.end(), [](const TriangleSetup& a, const TriangleSetup& b) { return a.slot < b.slot; });
 }
 
 }  // namespace copeel::cpu

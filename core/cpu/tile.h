@@ -19,7 +19,6 @@ struct TileSlot {
   std::uint32_t planeClass;
   std::uint32_t object;          // index into Tile::objects
   std::int32_t side;             // +1 entered here (front-facing), -1 left here
-  std::uint64_t coarseBound;     // of the depth error, key units, where it is greater than kCoarse; else 0
 };
 
 // Order values (depth_planes.h) that triangles reach, their error bounds included; as made, of none.
@@ -53,8 +52,9 @@ class Tile {
   void rangesOfBlocks(std::vector<DepthRange>& ranges) const;
   // Drops the triangles of objects that are no longer kept and those wholly beyond `farthest`; scales depths to keys.
   void finish(double farthest, bool decideAllExactly);
-  // Orders the setups by nearest depth, so that they can be met front to back.
+  // Orders the setups by nearest depth, so that they can be met front to back; or by slot. After finish.
   void orderByDepth();
+  void orderBySlot();
 
   int x0 = 0, y0 = 0;                       // of its first pixel
   int width = 0, height = 0;                // inside the image
@@ -64,8 +64,9 @@ class Tile {
   std::vector<std::uint64_t> nearest;       // after orderByDepth: lower bound of the depth of each setup and all after it
   double layers() const { return static_cast<double>(extent_.samples) / (width * height); }   // about how many fragments a pixel has
   std::size_t setupsOfLayers(double layers) const;   // how many setups, from the first, make about so many
-  KeyFormat format;
+  TileKeys keys;
   bool coarse = false;                      // some slot is so uncertain that its neighbours in depth order may not be adjacent
+  std::vector<std::uint64_t> coarseBounds;  // where `coarse`, of each slot: of the depth error, key units, where it is greater than kCoarse; else 0
 
  private:
   // Of an object.
@@ -80,23 +81,20 @@ class Tile {
   Source sourceOf(const Frame& frame, std::uint32_t index) const;
   void gather(const Frame& frame, const Source& source, std::span<const std::uint32_t> references, int at);
   void setUpBatch(const Frame& frame, int count);
-  void putSetup(int i, std::uint32_t slot, TriangleSetup& t) const;
-  void putEdges(int i, TriangleEdges& edges) const;
+  TriangleEdges edgesOf(int i) const;
+  DepthRange rangeOf(const TriangleSetup& t) const;   // of order values, without the error
   void drop(double farthest);
   void scaleDepths(bool decideAllExactly);
 
   std::span<const std::uint32_t> references_;
   EdgeBatch edges_;
   TileSlot gathered_[kEdgeBatch];           // of the batch; side: the object's turn
-  struct SetupRange {
-    double least, most, error;              // the bounds without the error
-  };
-  // Room for the triangles of all objects, kept from tile to tile; so many are in use.
+  // Room for the triangles of all objects, kept from tile to tile; so many are in use. Those that have edges are kept apart until all are set up, and come
+  // last: kernels then have to tell one from the other only once.
   std::vector<TileSlot> slotRoom_;
-  std::vector<TriangleSetup> setupRoom_, sortedRoom_;
+  std::vector<TriangleSetup> setupRoom_, withEdges_, sortedRoom_;
   std::vector<TriangleEdges> edgeRoom_;
-  std::vector<SetupRange> ranges_;          // order values of each setup in the tile
-  std::size_t count_ = 0, edgeCount_ = 0;
+  std::size_t count_ = 0, smallCount_ = 0;
   DepthExtent extent_;                      // of all setups
   std::vector<std::uint64_t> order_;        // of orderByDepth, kept for their memory
 };

@@ -57,7 +57,7 @@ class Walker {
   // `limit`: fragments at or beyond this depth may be missing yet.
   void begin(const Tile& tile, std::uint64_t limit) {
     coarse_ = tile.coarse;
-    uncertainty_ = tile.format.uncertainty;
+    uncertainty_ = tile.keys.format.uncertainty;
     limit_ = limit;
     remembers_ = false;
   }

@@ -24,19 +24,20 @@ struct PixelStack {
   std::uint32_t stride;
   cpu::KeyFormat format;
   const cpu::TileSlot* slots;
+  const std::uint64_t* coarseBounds = nullptr;   // per slot, where some are coarse (cpu::Tile)
   std::span<const std::uint32_t> before = {};   // slots in front of all keys, in no order
 
   std::uint64_t key(std::uint32_t i) const { return keys[std::size_t{i} * stride]; }
   std::uint32_t slot(std::uint32_t i) const { return format.slotOf(key(i)); }
   // Some depth is so uncertain that its neighbours in order may not be adjacent.
   bool hasCoarse() const {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      if (slots[slot(i)].coarseBound) return true;
+    for (std::uint32_t i = 0; coarseBounds && i < count; ++i) {
+      if (coarseBounds[slot(i)]) return true;
     }
     return false;
   }
   // Bound of the depth error of a slot, key units.
-  std::uint64_t uncertaintyOf(std::uint32_t slot) const { return std::max(slots[slot].coarseBound, format.uncertainty); }
+  std::uint64_t uncertaintyOf(std::uint32_t slot) const { return std::max(coarseBounds ? coarseBounds[slot] : 0, format.uncertainty); }
   // Bounds of the true depth, in key units.
   cpu::DepthRange depth(std::uint32_t i) const {
     const std::uint64_t k = key(i);
@@ -47,7 +48,7 @@ struct PixelStack {
 };
 
 inline PixelStack stackOf(const cpu::FragmentBlock& block, int pixel, const cpu::Tile& tile) {
-  return {block.keys + pixel, block.counts[pixel], block.stride, tile.format, tile.slots.data()};
+  return {block.keys + pixel, block.counts[pixel], block.stride, tile.keys.format, tile.slots.data(), tile.coarse ? tile.coarseBounds.data() : nullptr};
 }
 
 template <class F>

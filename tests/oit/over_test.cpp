@@ -109,7 +109,7 @@ TEST(Over, slotsOfATileAreShadedAlikeOnAnySimdTarget) {
   std::vector<vec4> expected;
   for (std::uint32_t i = 0; i < 200; ++i) {
     const std::uint32_t object = i / 100, planeClass = static_cast<std::uint32_t>(random() % shades.size());
-    slots.push_back({object ? kFirstOfSecond + i - 100 : i, planeClass, object, 1, 0});
+    slots.push_back({object ? kFirstOfSecond + i - 100 : i, planeClass, object, 1});
     expected.push_back(overShade(bases[object ? 1 + i - 100 : 0], shades[planeClass]));
   }
   for (const char* target : {"scalar", "sse4", "avx2", "best"}) {
