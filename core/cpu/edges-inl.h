@@ -6,6 +6,7 @@
 #define COPEEL_EDGES_INL_H_
 #endif
 
+#include <bit>
 #include <cstddef>
 #include <limits>
 
@@ -108,16 +109,16 @@ HWY_INLINE HWY_ATTR void addSample(const EdgeWalk& u, const EdgeWalk& v, const E
 template <int kRow>
 HWY_INLINE HWY_ATTR void addRow(EdgeWalk u, EdgeWalk v, EdgeWalk w, hn::Vec<Samples>& outside) {
   const auto step = [](EdgeWalk& walk) HWY_ATTR { walk.e = hn::Add(walk.e, walk.a); };
-  addSample<8 * kRow>(u, v, w, outside);
+  addSample<4 * kRow>(u, v, w, outside);
   step(u), step(v), step(w);
-  addSample<8 * kRow + 1>(u, v, w, outside);
+  addSample<4 * kRow + 1>(u, v, w, outside);
   step(u), step(v), step(w);
-  addSample<8 * kRow + 2>(u, v, w, outside);
+  addSample<4 * kRow + 2>(u, v, w, outside);
   step(u), step(v), step(w);
-  addSample<8 * kRow + 3>(u, v, w, outside);
+  addSample<4 * kRow + 3>(u, v, w, outside);
 }
 
-// Of the 4×4 samples from each triangle's first one on: bit x + 8·y.
+// Of the 4×4 samples from each triangle's first one on: bit x + 4·y.
 HWY_INLINE HWY_ATTR hn::Vec<Samples> coveredSamples(const EdgeBatch& batch, int i) {
   const Samples d;
   EdgeWalk u(batch, 0, i), v(batch, 1, i), w(batch, 2, i);
@@ -133,30 +134,56 @@ HWY_INLINE HWY_ATTR hn::Vec<Samples> coveredSamples(const EdgeBatch& batch, int 
   return hn::Not(outside);
 }
 
-// What small triangles cover, and the setups. A triangle that covers nothing is none.
-HWY_INLINE HWY_ATTR void coverSmall(EdgeBatch& batch, int i) {
+using Bits = hn::RebindToUnsigned<Samples>;
+
+// So many times as there are samples in a row, four at most: the lowest bits.
+template <int kBitsLog>
+HWY_INLINE HWY_ATTR hn::Vec<Samples> lowBits(hn::Vec<Samples> count) {
   const Samples d;
-  const hn::RebindToUnsigned<Samples> bits;
-  const auto one = hn::Set(d, 1), four = hn::Set(d, 4), side = hn::Load(d, batch.side + i);
+  const auto one = hn::Set(d, 1), within = hn::Min(hn::Max(count, one), hn::Set(d, TriangleSetup::kSmall));
+  return hn::Sub(hn::Shl(one, hn::ShiftLeft<kBitsLog>(within)), one);
+}
+
+// placeOf.
+HWY_INLINE HWY_ATTR hn::Vec<Samples> placesOf(hn::Vec<Samples> x, hn::Vec<Samples> y) {
+  const Samples d;
+  const auto inBlock = hn::Set(d, kBlockSize - 1);
+  const auto block = hn::Add(hn::Mul(hn::ShiftRight<3>(y), hn::Set(d, kBlocksPerSide)), hn::ShiftRight<3>(x));
+  return hn::Add(hn::ShiftLeft<6>(block), hn::Add(hn::ShiftLeft<3>(hn::And(y, inBlock)), hn::And(x, inBlock)));
+}
+static_assert(kBlockSize == 8 && kBlockPixels == 64);
+
+// What small triangles cover; slots and setups. A triangle that covers nothing is none.
+HWY_INLINE HWY_ATTR void putSetups(EdgeBatch& batch, int i) {
+  const Samples d;
+  const Bits bits;
+  const auto one = hn::Set(d, 1), zero = hn::Zero(d), side = hn::Load(d, batch.side + i);
   const auto x0 = hn::Load(d, batch.x0 + i), y0 = hn::Load(d, batch.y0 + i), x1 = hn::Load(d, batch.x1 + i), y1 = hn::Load(d, batch.y1 + i);
-  const auto bounds = hn::BitCast(bits, hn::Or(hn::Or(x0, hn::ShiftLeft<8>(y0)), hn::Or(hn::ShiftLeft<16>(x1), hn::ShiftLeft<24>(y1))));
   const auto width = hn::Add(hn::Sub(x1, x0), one), height = hn::Add(hn::Sub(y1, y0), one);
-  const auto isSmall = hn::Not(hn::Gt(hn::Max(width, height), four));
-  // Bits of the columns and rows that are within bounds.
-  const auto columns = hn::Mul(hn::Sub(hn::Shl(one, hn::Min(hn::Max(width, one), four)), one), hn::Set(d, 0x01010101));
-  const auto missing = hn::Sub(four, hn::Min(hn::Max(height, one), four));
-  const auto rows = hn::BitCast(d, hn::Shr(hn::Set(bits, 0x0F0F0F0Fu), hn::BitCast(bits, hn::ShiftLeft<3>(missing))));
-  const auto covered = hn::And(hn::And(coveredSamples(batch, i), columns), rows);
-  const auto keptSide = hn::IfThenZeroElse(hn::And(isSmall, hn::Eq(covered, hn::Zero(d))), side);
-  const auto kept = hn::Ne(keptSide, hn::Zero(d));
+  const auto isSmall = hn::Not(hn::Gt(hn::Max(width, height), hn::Set(d, TriangleSetup::kSmall)));
+  // Columns and rows that are within bounds: a bit of each row for a column, then of each row the lowest.
+  const auto within = hn::Mul(lowBits<0>(width), hn::And(lowBits<2>(height), hn::Set(d, 0x1111)));
+  const auto covered = hn::And(coveredSamples(batch, i), within);
+  const auto keptSide = hn::IfThenZeroElse(hn::And(isSmall, hn::Eq(covered, zero)), side);
+  const auto isKept = hn::Ne(keptSide, zero);
   hn::Store(keptSide, d, batch.side + i);
-  batch.kept |= bitsOf(d, kept) << i;
-  batch.small |= bitsOf(d, hn::And(kept, isSmall)) << i;
+  hn::Store(hn::IfThenElseZero(isKept, one), d, reinterpret_cast<std::int32_t*>(batch.isKept + i));
+  hn::Store(hn::IfThenElseZero(hn::And(isKept, isSmall), one), d, reinterpret_cast<std::int32_t*>(batch.isSmall + i));
+  batch.withEdges |= bitsOf(d, hn::AndNot(isSmall, isKept)) << i;
   const auto count = hn::BitCast(d, hn::PopulationCount(hn::BitCast(bits, covered)));
   hn::Store(hn::IfThenElse(isSmall, count, hn::Load(d, batch.samples + i)), d, batch.samples + i);
-  const auto cover = hn::IfThenElse(hn::RebindMask(bits, isSmall), hn::BitCast(bits, covered), hn::Set(bits, TriangleSetup::kHasEdges));
-  static_assert(sizeof(TriangleSetup) == 16 && offsetof(TriangleSetup, planeClass) == 4 && offsetof(TriangleSetup, cover) == 8);
-  hn::StoreInterleaved4(bounds, hn::Load(bits, batch.planeClass + i), cover, hn::Zero(bits), bits, reinterpret_cast<std::uint32_t*>(batch.setups + i));
+
+  const auto planeClass = hn::Load(bits, batch.planeClass + i);
+  const auto bounds = hn::Or(hn::Or(x0, hn::ShiftLeft<8>(y0)), hn::Or(hn::ShiftLeft<16>(x1), hn::ShiftLeft<24>(y1)));
+  const auto small = hn::Or(covered, hn::ShiftLeft<16>(placesOf(x0, y0)));
+  const auto cover = hn::IfThenElse(isSmall, small, hn::Set(d, static_cast<std::int32_t>(TriangleSetup::kHasEdges)));
+  static_assert(offsetof(TriangleSetup, planeClass) == 4 && offsetof(TriangleSetup, cover) == 8);
+  hn::StoreInterleaved4(hn::BitCast(bits, bounds), planeClass, hn::BitCast(bits, cover), hn::Zero(bits), bits,
+                        reinterpret_cast<std::uint32_t*>(batch.setups + i));
+  const auto turned = hn::BitCast(bits, hn::Mul(keptSide, hn::Load(d, batch.turn + i)));
+  static_assert(offsetof(TileSlot, planeClass) == 4 && offsetof(TileSlot, object) == 8 && offsetof(TileSlot, side) == 12 && sizeof(TileSlot) == 16);
+  hn::StoreInterleaved4(hn::Load(bits, batch.primitive + i), planeClass, hn::Load(bits, batch.object + i), turned, bits,
+                        reinterpret_cast<std::uint32_t*>(batch.slots + i));
 }
 
 // DepthExtent, lane by lane.
@@ -182,14 +209,28 @@ struct Extents {
   }
 };
 
+// Of two floats in a lane.
+HWY_INLINE HWY_ATTR Lanes lowerFloats(Lanes pairs) {
+  const hn::RebindToUnsigned<Exact> u;
+  const hn::Rebind<float, Exact> f;
+  const hn::Rebind<std::uint32_t, Exact> half;
+  static_assert(std::endian::native == std::endian::little);
+  return hn::PromoteTo(Exact(), hn::BitCast(f, hn::TruncateTo(half, hn::BitCast(u, pairs))));
+}
+HWY_INLINE HWY_ATTR Lanes upperFloats(Lanes pairs) {
+  const hn::RebindToUnsigned<Exact> u;
+  return lowerFloats(hn::BitCast(Exact(), hn::ShiftRight<32>(hn::BitCast(u, pairs))));
+}
+
 // Depths that the planes reach within the bounds: orderAt's operations in its order, so that none of their samples lies beyond.
 HWY_INLINE HWY_ATTR void addDepths(const EdgeBatch& batch, int i, const TileFrame& tile, Extents& extents) {
   const Exact d;
   const hn::Rebind<float, Exact> f;
   const Whole whole;
   const Corner first = corner(batch.x0 + i, batch.y0 + i), last = corner(batch.x1 + i, batch.y1 + i);
-  const Lanes a = hn::Load(d, batch.planeA + i), b = hn::Load(d, batch.planeB + i), c = hn::Load(d, batch.planeC + i);
-  const Lanes lo = hn::PromoteTo(d, hn::Load(f, batch.planeLo + i)), hi = hn::PromoteTo(d, hn::Load(f, batch.planeHi + i));
+  Lanes a, b, c, range;
+  hn::LoadInterleaved4(d, &batch.planes[i].a, a, b, c, range);
+  const Lanes lo = lowerFloats(range), hi = upperFloats(range);
   const Lanes u = hn::Set(d, tile.u), v = hn::Set(d, tile.v);
   const Lanes left = hn::Mul(a, hn::Add(u, first.x)), right = hn::Mul(a, hn::Add(u, last.x));
   const Lanes top = hn::Mul(b, hn::Add(v, first.y)), bottom = hn::Mul(b, hn::Add(v, last.y));
@@ -306,12 +347,12 @@ HWY_ATTR void SetUpEdges(EdgeBatch& batch, int count, const TileFrame& tile) {
   // What a vector holds beyond the last triangle is none.
   for (int i = count; i % group != 0; ++i) batch.p[i] = batch.q[i] = batch.r[i] = {0, 0};
   Extents extents(batch.extent);
-  batch.kept = batch.small = 0;
+  batch.withEdges = 0;
   for (int i = 0; i < count; i += group) {
     if (!setUpShort(batch, i, tile)) {
       for (int k = i; k < i + group; k += lanes) setUpAny(batch, k, tile);
     }
-    coverSmall(batch, i);
+    putSetups(batch, i);
     for (int k = i; k < i + group; k += lanes) addDepths(batch, k, tile, extents);
   }
   extents.addTo(batch.extent);

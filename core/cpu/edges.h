@@ -30,20 +30,28 @@ struct DepthExtent {
 struct EdgeBatch {
   // In: corners, grid coordinates.
   alignas(64) glm::ivec2 p[kEdgeBatch] = {}, q[kEdgeBatch] = {}, r[kEdgeBatch] = {};
-  // In: plane classes, and the DepthPlane of each (core/coplanarity/depth_planes.h).
-  alignas(64) std::uint32_t planeClass[kEdgeBatch] = {};
-  alignas(64) double planeA[kEdgeBatch] = {}, planeB[kEdgeBatch] = {}, planeC[kEdgeBatch] = {};
-  alignas(64) float planeLo[kEdgeBatch] = {}, planeHi[kEdgeBatch] = {}, planeError[kEdgeBatch] = {};
+  // In: what TileSlot keeps of each, and the object's turn: -1 where mirroring turns its faces inside out.
+  alignas(64) std::uint32_t primitive[kEdgeBatch] = {}, planeClass[kEdgeBatch] = {}, object[kEdgeBatch] = {};
+  alignas(64) std::int32_t turn[kEdgeBatch] = {};
+  // In: the DepthPlane of the class, but for the error.
+  struct alignas(32) Plane {
+    double a, b, c;
+    float lo, hi;
+  };
+  Plane planes[kEdgeBatch] = {};
+  alignas(64) float planeError[kEdgeBatch] = {};
   // Out: +1 front-facing (clockwise with y down), -1 back-facing, 0 where no sample of the tile can be covered. Then the rest is undefined.
   alignas(64) std::int32_t side[kEdgeBatch];
   // Out: samples that the bounds leave within the tile, inclusive, from its upper left one.
   alignas(64) std::int32_t x0[kEdgeBatch], y0[kEdgeBatch], x1[kEdgeBatch], y1[kEdgeBatch];
   // Out: about how many samples of the tile it covers.
   alignas(64) std::int32_t samples[kEdgeBatch];
-  // Out: the setup of each, but for its slot, and its edges if its bounds hold more than 4×4 samples: kHasEdges alone.
-  TriangleSetup setups[kEdgeBatch];
-  // Out: a bit for each that is set up, and for those of them that have no edges.
-  std::uint32_t kept = 0, small = 0;
+  // Out: the slot of each and its setup, but for the slot's place, and the edges' place: kHasEdges alone.
+  alignas(64) TileSlot slots[kEdgeBatch];
+  alignas(64) TriangleSetup setups[kEdgeBatch];
+  // Out: 1 for each that is set up, for those of them that are small, else 0; a bit for those that are not.
+  alignas(64) std::uint32_t isKept[kEdgeBatch], isSmall[kEdgeBatch];
+  std::uint32_t withEdges = 0;
   // Out: edge i is a·x + b·y + c >= 0 on the inner side (TriangleSetup); all zero for an edge that holds all of the bounds on its inner side.
   alignas(64) std::int32_t a[3][kEdgeBatch], b[3][kEdgeBatch], c[3][kEdgeBatch];
   DepthExtent extent;   // In, out: grows by what these triangles reach.

@@ -88,7 +88,8 @@ HWY_INLINE HWY_ATTR std::uint64_t blockCoverage(const TriangleSetup& t, const Tr
 template <int kCount>
 class RowKeys {
  public:
-  HWY_INLINE HWY_ATTR RowKeys(const TriangleSetup& t, const TileKeys& keys)
+  // slotMask: KeyFormat's, as finding it takes as long as a row.
+  HWY_INLINE HWY_ATTR RowKeys(const TriangleSetup& t, const TileKeys& keys, std::uint64_t slotMask)
       : u_(keys.u), v_(keys.v), up_(64 - keys.format.depthBits) {
     const DepthPlane& plane = keys.planeOf(t);
     const D d;
@@ -96,7 +97,7 @@ class RowKeys {
     origin_ = hn::Set(d, keys.least), scale_ = hn::Set(d, keys.scale);
     least_ = hn::Max(hn::Set(d, static_cast<double>(plane.lo)), origin_);
     most_ = hn::Min(hn::Set(d, static_cast<double>(plane.hi)), hn::Set(d, keys.most));
-    slot_ = hn::Set(U(), keys.format.lowBitsOf(t.slot));
+    slot_ = hn::Set(U(), t.slot ^ slotMask);
   }
   // x, y: the first pixel in the tile.
   HWY_INLINE HWY_ATTR void put(int x, int y, std::uint64_t* out) const {
@@ -108,11 +109,6 @@ class RowKeys {
       const auto bits = hn::ShiftRight<64 - kKeyBits>(hn::ShiftLeftSame(hn::BitCast(U(), depth), up_));
       hn::Store(hn::Or(bits, slot_), U(), out + lane);
     }
-  }
-  // Rows y … last, kBlockSize apart.
-  HWY_INLINE HWY_ATTR void putRows(int x, int y, int last, std::uint64_t* out) const {
-#pragma GCC unroll 1
-    for (; y <= last; ++y, out += kBlockSize) put(x, y, out);
   }
 
  private:
@@ -126,65 +122,71 @@ class RowKeys {
 };
 
 // A triangle whose bounds hold no more samples than a block is taken sample by sample, whatever blocks it lies in.
-HWY_INLINE bool isSmall(const TriangleSetup& t) { return !t.hasEdges() || (t.x1 - t.x0 + 1) * (t.y1 - t.y0 + 1) <= kBlockPixels; }
+HWY_INLINE bool isBySample(const TriangleSetup& t) { return !t.hasEdges() || (t.x1 - t.x0 + 1) * (t.y1 - t.y0 + 1) <= kBlockPixels; }
 
-// Pixels of a tile lie block by block: this is one's place, kBlockPixels times the block and the pixel in it.
-constexpr std::uint32_t placeOf(unsigned x, unsigned y) {
-  const unsigned block = y / kBlockSize * kBlocksPerSide + x / kBlockSize;
-  return block * kBlockPixels + y % kBlockSize * kBlockSize + x % kBlockSize;
-}
-
-// steps[pixel][8·row + column]: how many places the sample so many columns and rows on lies after one that is so in its block. Small triangles lie in
-// two to four blocks as often as in one, and looking up costs less than telling them apart.
+// steps[pixel][kWidth·row + column]: how many places the sample so many columns and rows on lies after one that is so in its block. Small triangles lie
+// in two to four blocks as often as in one, and looking up costs less than telling them apart.
+template <unsigned kWidth>
 struct PlaceSteps {
-  std::uint16_t steps[kBlockPixels][kBlockPixels];
+  std::uint16_t steps[kBlockPixels][kWidth * kWidth];
 };
-constexpr PlaceSteps placeSteps() {
-  PlaceSteps table{};
+template <unsigned kWidth>
+constexpr PlaceSteps<kWidth> placeSteps() {
+  PlaceSteps<kWidth> table{};
   for (unsigned pixel = 0; pixel < kBlockPixels; ++pixel) {
     const unsigned x = pixel % kBlockSize, y = pixel / kBlockSize;
-    for (unsigned bit = 0; bit < kBlockPixels; ++bit) {
-      table.steps[pixel][bit] = static_cast<std::uint16_t>(placeOf(x + bit % kBlockSize, y + bit / kBlockSize) - placeOf(x, y));
+    for (unsigned bit = 0; bit < kWidth * kWidth; ++bit) {
+      table.steps[pixel][bit] = static_cast<std::uint16_t>(placeOf(x + bit % kWidth, y + bit / kWidth) - placeOf(x, y));
     }
   }
   return table;
 }
-alignas(64) inline constexpr PlaceSteps kPlaceSteps = placeSteps();
+template <unsigned kWidth>
+alignas(64) inline constexpr PlaceSteps<kWidth> kPlaceSteps = placeSteps<kWidth>();
 
-// `visit(place, key)` for samples of 8×8 from (x, y) on. covered: bit 8·row + column, as are the keys.
-template <class Visit>
-HWY_INLINE HWY_ATTR void forEachCovered(unsigned x, unsigned y, std::uint64_t covered, const std::uint64_t* keys, Visit visit) {
-  const std::uint32_t first = placeOf(x, y);
-  const std::uint16_t* const steps = kPlaceSteps.steps[first % kBlockPixels];
+// `visit(place, key)` for samples of a square, kWidth in a row, the first one at `first`. covered: bit kWidth·row + column, as are the keys.
+template <unsigned kWidth, class Visit>
+HWY_INLINE HWY_ATTR void forEachCovered(std::uint32_t first, std::uint64_t covered, const std::uint64_t* keys, Visit visit) {
+  const std::uint16_t* const steps = kPlaceSteps<kWidth>.steps[first % kBlockPixels];
   for (; covered; covered &= covered - 1) {
     const int bit = __builtin_ctzll(covered);
     visit(first + steps[bit], keys[bit]);
   }
 }
 
-// In windows of 8×8 from the corner of its bounds on, of which nearly every small triangle needs one.
+// Keys of rows 0 … last, kBlockSize apart, from (x, y) on.
+template <int kCount>
+HWY_INLINE HWY_ATTR void keysOfRows(const RowKeys<kCount>& ofRow, int x, int y, int last, std::uint64_t* found) {
+#pragma GCC unroll 1
+  for (int row = 0; row <= last; ++row) ofRow.put(x, y + row, found + kBlockSize * row);
+}
+
+// In windows of 8×8 from the corner of its bounds on, of which nearly every triangle needs one.
 template <class Visit>
-HWY_NOINLINE HWY_ATTR void visitWindows(const TriangleSetup& t, const TileKeys& keys, Visit visit) {
+HWY_NOINLINE HWY_ATTR void visitWindows(const TriangleSetup& t, const TileKeys& keys, std::uint64_t slotMask, Visit visit) {
   const TriangleEdges& edges = keys.edgesOf(t);
   alignas(64) std::uint64_t found[kBlockPixels];
   for (int y = t.y0; y <= t.y1; y += kBlockSize) {
     for (int x = t.x0; x <= t.x1; x += kBlockSize) {
       const Within bounds = withinRest(t, x, y);
       const std::uint64_t covered = coverage(edges, x, y, bounds);
-      if (t.x1 - x < 4) RowKeys<4>(t, keys).putRows(x, y, y + bounds.y1, found);
-      else RowKeys<kBlockSize>(t, keys).putRows(x, y, y + bounds.y1, found);
-      forEachCovered(static_cast<unsigned>(x), static_cast<unsigned>(y), covered, found, visit);
+      if (t.x1 - x < 4) keysOfRows(RowKeys<4>(t, keys, slotMask), x, y, bounds.y1, found);
+      else keysOfRows(RowKeys<kBlockSize>(t, keys, slotMask), x, y, bounds.y1, found);
+      forEachCovered<kBlockSize>(placeOf(static_cast<unsigned>(x), static_cast<unsigned>(y)), covered, found, visit);
     }
   }
 }
 
-// `visit(place, key)` for the samples of a small triangle.
+// `visit(place, key)` for the samples of a triangle that is taken sample by sample.
 template <class Visit>
-HWY_INLINE HWY_ATTR void forEachSample(const TriangleSetup& t, const TileKeys& keys, Visit visit) {
-  if (t.hasEdges()) return visitWindows(t, keys, visit);
-  alignas(64) std::uint64_t found[4 * kBlockSize];
-  RowKeys<4>(t, keys).putRows(t.x0, t.y0, t.y1, found);
-  forEachCovered(t.x0, t.y0, t.cover, found, visit);
+HWY_INLINE HWY_ATTR void forEachSample(const TriangleSetup& t, const TileKeys& keys, std::uint64_t slotMask, Visit visit) {
+  if (t.hasEdges()) return visitWindows(t, keys, slotMask, visit);
+  constexpr int kSmall = TriangleSetup::kSmall;
+  alignas(64) std::uint64_t found[kSmall * kSmall];
+  const RowKeys<kSmall> ofRow(t, keys, slotMask);
+  // All rows: how many there are would be guessed wrong too often.
+  for (int row = 0; row < kSmall; ++row) ofRow.put(t.x0, t.y0 + row, found + kSmall * row);
+  forEachCovered<kSmall>(t.place(), t.covered(), found, visit);
 }
 
 // `visit(block, x, y, covered)` for blocks of the rectangle that are not in `closed`. x, y: the block's first pixel in the tile.
@@ -226,20 +228,21 @@ HWY_INLINE HWY_ATTR void collectInRoom(const TriangleSetup* triangles, std::size
   const auto addOpen = [add, closed](std::uint32_t place, std::uint64_t key) HWY_ATTR {
     if (!(closed >> (place / kBlockPixels) & 1)) add(place, key);
   };
+  const std::uint64_t slotMask = keys.format.slotMask();
   for (std::size_t i = 0; i < count; ++i) {
     const TriangleSetup& t = triangles[i];
-    if (isSmall(t)) {
-      if (!closed) forEachSample(t, keys, add);
-      else forEachSample(t, keys, addOpen);
+    if (isBySample(t)) {
+      if (!closed) forEachSample(t, keys, slotMask, add);
+      else forEachSample(t, keys, slotMask, addOpen);
       continue;
     }
-    const RowKeys<kBlockSize> ofRows(t, keys);
+    const RowKeys<kBlockSize> ofRow(t, keys, slotMask);
     forEachBlock(t, keys.edgesOf(t), rect, closed, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
       for (int row = __builtin_ctzll(covered) / kBlockSize; row < kBlockSize; ++row) {
         std::uint32_t mask = covered >> (row * kBlockSize) & 0xFF;
         if (!mask) continue;
         alignas(64) std::uint64_t found[kBlockSize];
-        ofRows.put(x, y + row, found);
+        ofRow.put(x, y + row, found);
         const std::uint32_t place = static_cast<std::uint32_t>(index * kBlockPixels + row * kBlockSize);
         if (mask == 0xFF && addRow(room, place, found)) continue;
         for (; mask; mask &= mask - 1) {
@@ -286,19 +289,20 @@ HWY_ATTR PixelCounts CountPixels(std::span<const std::uint32_t> counts, std::uin
 
 HWY_ATTR void CollectNearest(const TriangleSetup* triangles, std::size_t count, const TileKeys& keys, std::uint64_t* nearest) {
   const auto keep = [&](std::uint32_t place, std::uint64_t key) HWY_ATTR { nearest[place] = std::min(nearest[place], key); };
+  const std::uint64_t slotMask = keys.format.slotMask();
   for (std::size_t i = 0; i < count; ++i) {
     const TriangleSetup& t = triangles[i];
-    if (isSmall(t)) {
-      forEachSample(t, keys, keep);
+    if (isBySample(t)) {
+      forEachSample(t, keys, slotMask, keep);
       continue;
     }
-    const RowKeys<kBlockSize> ofRows(t, keys);
+    const RowKeys<kBlockSize> ofRow(t, keys, slotMask);
     forEachBlock(t, keys.edgesOf(t), BlockRect{}, 0, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
       for (int row = __builtin_ctzll(covered) / kBlockSize; row < kBlockSize; ++row) {
         const std::uint32_t mask = covered >> (row * kBlockSize) & 0xFF;
         if (!mask) continue;
         alignas(64) std::uint64_t found[kBlockSize];
-        ofRows.put(x, y + row, found);
+        ofRow.put(x, y + row, found);
         std::uint64_t* pixels = nearest + index * kBlockPixels + row * kBlockSize;
         for (int k = 0; k < kBlockSize; ++k) {
           const std::uint64_t key = mask >> k & 1 ? found[k] : kEmptyKey;
@@ -353,20 +357,21 @@ HWY_ATTR void CollectKNearest(const TriangleSetup* triangles, std::size_t count,
     ++block.seen[pixel];
     if (key < block.keys[lastLayer + pixel] + doubt.reach) keepNearest(block, k, static_cast<int>(pixel), key, keys.format, doubt);
   };
+  const std::uint64_t slotMask = keys.format.slotMask();
   for (std::size_t i = 0; i < count; ++i) {
     const TriangleSetup& t = triangles[i];
-    if (isSmall(t)) {
-      forEachSample(t, keys, keep);
+    if (isBySample(t)) {
+      forEachSample(t, keys, slotMask, keep);
       continue;
     }
-    const RowKeys<kBlockSize> ofRows(t, keys);
+    const RowKeys<kBlockSize> ofRow(t, keys, slotMask);
     forEachBlock(t, keys.edgesOf(t), BlockRect{}, 0, [&](int index, int x, int y, std::uint64_t covered) HWY_ATTR {
       NearestGrid::Block& block = grid.block(index);
       for (int row = __builtin_ctzll(covered) / kBlockSize; row < kBlockSize; ++row) {
         std::uint32_t mask = covered >> (row * kBlockSize) & 0xFF;
         if (!mask) continue;
         alignas(64) std::uint64_t found[kBlockSize];
-        ofRows.put(x, y + row, found);
+        ofRow.put(x, y + row, found);
         for (int lane = 0; lane < kBlockSize; ++lane) block.seen[row * kBlockSize + lane] += mask >> lane & 1;
         mask &= mayBeKept(found, block.keys.get() + lastLayer + row * kBlockSize, doubt.reach);
         for (; mask; mask &= mask - 1) {

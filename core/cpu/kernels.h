@@ -38,12 +38,31 @@ struct TriangleEdges {
 struct alignas(16) TriangleSetup {
   std::uint8_t x0, y0, x1, y1;      // bounds of covered samples, inclusive
   std::uint32_t planeClass;
-  std::uint32_t cover;              // bit x + 8·y, x and y up to 3: sample (x0 + x, y0 + y) is covered; or kHasEdges and the place of its edges
+  std::uint32_t cover;              // of small triangles, of the others
   std::uint32_t slot;
 
-  static constexpr std::uint32_t kHasEdges = 1u << 31;   // its bounds hold more than 4×4 samples
+  static constexpr int kSmall = 4;                       // samples: small triangles have bounds of so many columns and rows at most
+  static constexpr std::uint32_t kHasEdges = 1u << 31;   // others have edges: where they lie
   bool hasEdges() const { return cover & kHasEdges; }
   std::uint32_t edges() const { return cover & ~kHasEdges; }
+  // Bit x + 4·y: sample (x0 + x, y0 + y) is covered.
+  std::uint32_t covered() const { return cover & 0xFFFF; }
+  std::uint32_t place() const { return cover >> 16; }    // of (x0, y0): placeOf
+};
+static_assert(sizeof(TriangleSetup) == 16);
+
+// Pixels of a tile lie block by block: this is one's place, kBlockPixels times the block and the pixel in it.
+constexpr std::uint32_t placeOf(unsigned x, unsigned y) {
+  const unsigned block = y / kBlockSize * kBlocksPerSide + x / kBlockSize;
+  return block * kBlockPixels + y % kBlockSize * kBlockSize + x % kBlockSize;
+}
+
+// What a fold may want to know of a triangle.
+struct TileSlot {
+  std::uint32_t primitive;
+  std::uint32_t planeClass;
+  std::uint32_t object;          // index into Tile::objects
+  std::int32_t side;             // +1 entered here (front-facing), -1 left here
 };
 
 inline constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};   // of depths of keys
@@ -67,11 +86,12 @@ struct TileKeys {
   const TriangleEdges* edges = nullptr;   // of those that have any
   double least = 0, most = 0;             // order values of the tile
   double scale = 1;                       // key units of one
-  double u[kTileSize + kBlockSize], v[kTileSize];   // of columns and rows, in the planes' coordinates: eight columns may be read from any on
+  // Of columns and rows, in the planes' coordinates. Some may be read from any on.
+  double u[kTileSize + kBlockSize], v[kTileSize + TriangleSetup::kSmall];
 
   const TriangleEdges& edgesOf(const TriangleSetup& t) const { return edges[t.edges()]; }
   const DepthPlane& planeOf(const TriangleSetup& t) const { return planes[t.planeClass]; }
-  std::int32_t samplesOf(const TriangleSetup& t) const { return t.hasEdges() ? edgesOf(t).samples : std::popcount(t.cover); }
+  std::int32_t samplesOf(const TriangleSetup& t) const { return t.hasEdges() ? edgesOf(t).samples : std::popcount(t.covered()); }
 };
 
 // The order value before it is clamped. x, y: a pixel of the tile.
@@ -184,8 +204,6 @@ class NearestGrid {
   std::uint32_t k_;
   Block blocks_[kBlocksPerTile];
 };
-
-struct TileSlot;
 
 // What tells two keys' planes apart, and when they have to be.
 struct KeyDoubt {

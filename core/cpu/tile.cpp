@@ -122,8 +122,8 @@ void Tile::gather(const Frame& frame, const Source& source, std::span<const std:
     const std::uint32_t planeClass = source.classes[source.mesh->facetOf(triangle)];
     __builtin_prefetch(&frame.depths[planeClass]);
     __builtin_prefetch(&frame.depths[planeClass].error);
-    gathered_[at + i] = {source.firstPrimitive + triangle, planeClass, source.index, source.turn};
-    edges_.planeClass[at + i] = planeClass;
+    edges_.primitive[at + i] = source.firstPrimitive + triangle, edges_.planeClass[at + i] = planeClass;
+    edges_.object[at + i] = source.index, edges_.turn[at + i] = source.turn;
     corners[i] = source.mesh->triangles[triangle];
   }
   for (std::size_t i = 0; i < count; ++i) {
@@ -140,31 +140,26 @@ void Tile::gather(const Frame& frame, const Source& source, std::span<const std:
 void Tile::setUpBatch(const Frame& frame, int count) {
   for (int i = 0; i < count; ++i) {
     const DepthPlane& plane = keys.planes[edges_.planeClass[i]];
-    edges_.planeA[i] = plane.a, edges_.planeB[i] = plane.b, edges_.planeC[i] = plane.c;
-    edges_.planeLo[i] = plane.lo, edges_.planeHi[i] = plane.hi, edges_.planeError[i] = plane.error;
+    edges_.planes[i] = {plane.a, plane.b, plane.c, plane.lo, plane.hi};
+    edges_.planeError[i] = plane.error;
   }
   setUpEdges(edges_, count, {x0, y0, width, height, frame.projection.grid.bits, keys.u[0], keys.v[0]});
-  const std::size_t first = count_;
-  std::size_t at = count_, smallAt = smallCount_;   // local ones stay in registers
+  std::size_t at = count_, smallAt = smallCount_, withEdgesAt = at - smallAt;   // local ones stay in registers
   TileSlot* const slotsHere = slotRoom_.data();
   TriangleSetup* const setupsHere = setupRoom_.data();
   // What is not kept is overwritten by the next: no branch would foretell it.
   for (int i = 0; i < count; ++i) {
-    slotsHere[at] = gathered_[i];
-    slotsHere[at].side *= edges_.side[i];
+    slotsHere[at] = edges_.slots[i];
     setupsHere[smallAt] = edges_.setups[i];
-    setupsHere[smallAt].slot = static_cast<std::uint32_t>(at);
-    at += edges_.kept >> i & 1;
-    smallAt += edges_.small >> i & 1;
+    setupsHere[smallAt].slot = edges_.setups[i].slot = static_cast<std::uint32_t>(at);
+    at += edges_.isKept[i];
+    smallAt += edges_.isSmall[i];
   }
-  for (std::uint32_t left = edges_.kept & ~edges_.small; left; left &= left - 1) {
+  for (std::uint32_t left = edges_.withEdges; left; left &= left - 1, ++withEdgesAt) {
     const int i = std::countr_zero(left);
-    const std::size_t place = first - smallCount_ + static_cast<std::size_t>(std::popcount(edges_.kept & ~edges_.small & ((left & -left) - 1)));
-    edgeRoom_[place] = edgesOf(i);
-    TriangleSetup& t = withEdges_[place];
-    t = edges_.setups[i];
-    t.cover |= static_cast<std::uint32_t>(place);
-    t.slot = static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(std::popcount(edges_.kept & ((left & -left) - 1)));
+    edgeRoom_[withEdgesAt] = edgesOf(i);
+    withEdges_[withEdgesAt] = edges_.setups[i];
+    withEdges_[withEdgesAt].cover |= static_cast<std::uint32_t>(withEdgesAt);
   }
   count_ = at;
   smallCount_ = smallAt;

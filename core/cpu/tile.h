@@ -13,14 +13,6 @@
 
 namespace copeel::cpu {
 
-// What a fold may want to know of a triangle.
-struct TileSlot {
-  std::uint32_t primitive;
-  std::uint32_t planeClass;
-  std::uint32_t object;          // index into Tile::objects
-  std::int32_t side;             // +1 entered here (front-facing), -1 left here
-};
-
 // Order values (depth_planes.h) that triangles reach, their error bounds included; as made, of none.
 struct DepthRange {
   double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity();
@@ -88,7 +80,6 @@ class Tile {
 
   std::span<const std::uint32_t> references_;
   EdgeBatch edges_;
-  TileSlot gathered_[kEdgeBatch];           // of the batch; side: the object's turn
   // Room for the triangles of all objects, kept from tile to tile; so many are in use. Those that have edges are kept apart until all are set up, and come
   // last: kernels then have to tell one from the other only once.
   std::vector<TileSlot> slotRoom_;
