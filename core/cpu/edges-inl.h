@@ -228,8 +228,22 @@ HWY_INLINE HWY_ATTR void addDepths(const EdgeBatch& batch, int i, const TileFram
   const hn::Rebind<float, Exact> f;
   const Whole whole;
   const Corner first = corner(batch.x0 + i, batch.y0 + i), last = corner(batch.x1 + i, batch.y1 + i);
+  // Side by side, then field by field.
+  constexpr std::size_t kMost = hn::MaxLanes(d);
+  alignas(64) double fields[4 * kMost];
+  alignas(64) float errors[kMost];
+  static_assert(offsetof(DepthPlane, c) == 16 && offsetof(DepthPlane, lo) == 24 && offsetof(DepthPlane, hi) == 28);
+  const hn::CappedTag<double, 4> fourFields;
+#pragma GCC unroll 8
+  for (std::size_t k = 0; k < kMost; ++k) {
+    const DepthPlane& plane = tile.planes[batch.planeClass[i + k]];
+    for (std::size_t field = 0; field < 4; field += hn::Lanes(fourFields)) {
+      hn::Store(hn::LoadU(fourFields, &plane.a + field), fourFields, fields + 4 * k + field);
+    }
+    errors[k] = plane.error;
+  }
   Lanes a, b, c, range;
-  hn::LoadInterleaved4(d, &batch.planes[i].a, a, b, c, range);
+  hn::LoadInterleaved4(d, fields, a, b, c, range);
   const Lanes lo = lowerFloats(range), hi = upperFloats(range);
   const Lanes u = hn::Set(d, tile.u), v = hn::Set(d, tile.v);
   const Lanes left = hn::Mul(a, hn::Add(u, first.x)), right = hn::Mul(a, hn::Add(u, last.x));
@@ -237,7 +251,7 @@ HWY_INLINE HWY_ATTR void addDepths(const EdgeBatch& batch, int i, const TileFram
   const auto clamped = [&](Lanes order) HWY_ATTR { return hn::Min(hn::Max(order, lo), hi); };
   const Lanes least = clamped(hn::Add(hn::Min(left, right), hn::Add(hn::Min(top, bottom), c)));
   const Lanes most = clamped(hn::Add(hn::Max(left, right), hn::Add(hn::Max(top, bottom), c)));
-  const Lanes error = hn::PromoteTo(d, hn::Load(f, batch.planeError + i));
+  const Lanes error = hn::PromoteTo(d, hn::Load(f, errors));
   const auto isSetUp = hn::Ne(hn::PromoteTo(d, hn::Load(whole, batch.side + i)), hn::Zero(d));
   extents.add(isSetUp, least, most, error, hn::PromoteTo(d, hn::Load(whole, batch.samples + i)));
 }
@@ -345,7 +359,7 @@ HWY_INLINE HWY_ATTR bool setUpShort(EdgeBatch& batch, int i, const TileFrame& ti
 HWY_ATTR void SetUpEdges(EdgeBatch& batch, int count, const TileFrame& tile) {
   const int group = static_cast<int>(hn::Lanes(Samples())), lanes = static_cast<int>(hn::Lanes(Exact()));
   // What a vector holds beyond the last triangle is none.
-  for (int i = count; i % group != 0; ++i) batch.p[i] = batch.q[i] = batch.r[i] = {0, 0};
+  for (int i = count; i % group != 0; ++i) batch.p[i] = batch.q[i] = batch.r[i] = {0, 0}, batch.planeClass[i] = batch.planeClass[0];
   Extents extents(batch.extent);
   batch.withEdges = 0;
   for (int i = 0; i < count; i += group) {

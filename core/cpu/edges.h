@@ -33,13 +33,6 @@ struct EdgeBatch {
   // In: what TileSlot keeps of each, and the object's turn: -1 where mirroring turns its faces inside out.
   alignas(64) std::uint32_t primitive[kEdgeBatch] = {}, planeClass[kEdgeBatch] = {}, object[kEdgeBatch] = {};
   alignas(64) std::int32_t turn[kEdgeBatch] = {};
-  // In: the DepthPlane of the class, but for the error.
-  struct alignas(32) Plane {
-    double a, b, c;
-    float lo, hi;
-  };
-  Plane planes[kEdgeBatch] = {};
-  alignas(64) float planeError[kEdgeBatch] = {};
   // Out: +1 front-facing (clockwise with y down), -1 back-facing, 0 where no sample of the tile can be covered. Then the rest is undefined.
   alignas(64) std::int32_t side[kEdgeBatch];
   // Out: samples that the bounds leave within the tile, inclusive, from its upper left one.
@@ -60,6 +53,7 @@ struct EdgeBatch {
 struct TileFrame {
   int x0, y0, width, height;   // pixels
   int bits;                    // sub-pixel bits of the grid
+  const DepthPlane* planes;    // by plane class
   double u = 0, v = 0;         // of the first sample, in the planes' coordinates
 };
 

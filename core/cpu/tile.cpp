@@ -114,7 +114,7 @@ void Tile::setUp(const Frame& frame) {
 
 // Corners to the places of the batch from `at` on. Most of what is read lies far away: each step reads what the one before has found for all of them,
 // so that few reads wait for each other.
-void Tile::gather(const Frame& frame, const Source& source, std::span<const std::uint32_t> references, int at) {
+void Tile::gather(const Frame& frame, Source source, std::span<const std::uint32_t> references, int at) {
   const std::size_t count = references.size();
   glm::uvec3 corners[kEdgeBatch];
   for (std::size_t i = 0; i < count; ++i) {
@@ -138,12 +138,7 @@ void Tile::gather(const Frame& frame, const Source& source, std::span<const std:
 }
 
 void Tile::setUpBatch(const Frame& frame, int count) {
-  for (int i = 0; i < count; ++i) {
-    const DepthPlane& plane = keys.planes[edges_.planeClass[i]];
-    edges_.planes[i] = {plane.a, plane.b, plane.c, plane.lo, plane.hi};
-    edges_.planeError[i] = plane.error;
-  }
-  setUpEdges(edges_, count, {x0, y0, width, height, frame.projection.grid.bits, keys.u[0], keys.v[0]});
+  setUpEdges(edges_, count, {x0, y0, width, height, frame.projection.grid.bits, keys.planes, keys.u[0], keys.v[0]});
   std::size_t at = count_, smallAt = smallCount_, withEdgesAt = at - smallAt;   // local ones stay in registers
   TileSlot* const slotsHere = slotRoom_.data();
   TriangleSetup* const setupsHere = setupRoom_.data();

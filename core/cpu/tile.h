@@ -71,7 +71,7 @@ class Tile {
     const std::uint32_t* classes;           // of its facets
   };
   Source sourceOf(const Frame& frame, std::uint32_t index) const;
-  void gather(const Frame& frame, const Source& source, std::span<const std::uint32_t> references, int at);
+  void gather(const Frame& frame, Source source, std::span<const std::uint32_t> references, int at);
   void setUpBatch(const Frame& frame, int count);
   TriangleEdges edgesOf(int i) const;
   DepthRange rangeOf(const TriangleSetup& t) const;   // of order values, without the error
