@@ -5,6 +5,7 @@
 #ifndef COPEEL_DEPTH_VIEW_
 #define COPEEL_DEPTH_VIEW_
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -39,11 +40,6 @@ struct GroupPoints {
   }
 };
 
-struct PlaneBatch {
-  alignas(64) double a[PlaneClassGroup::kSize], b[PlaneClassGroup::kSize], c[PlaneClassGroup::kSize];
-  alignas(64) float lo[PlaneClassGroup::kSize], hi[PlaneClassGroup::kSize], error[PlaneClassGroup::kSize];
-};
-
 }  // namespace copeel
 
 #endif
@@ -65,6 +61,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using F64 = hn::CappedTag<double, PlaneClassGroup::kSize>;
 using F32 = hn::Rebind<float, F64>;
+using U64 = hn::RebindToUnsigned<F64>;
+using U32 = hn::RebindToUnsigned<F32>;
 using V = hn::Vec<F64>;
 
 inline constexpr double kEps = std::numeric_limits<double>::epsilon();
@@ -99,23 +97,35 @@ HWY_INLINE HWY_ATTR V3 transformed(const glm::dmat4& m, const V3& p) {
 
 HWY_INLINE HWY_ATTR V dot(const V3& a, const V3& b) { return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z)); }
 
-// The next float after a rounded value: floats of one sign are ordered as their bits.
-HWY_INLINE HWY_ATTR hn::Vec<F32> above(V value) {
-  const F32 f;
-  const hn::RebindToSigned<F32> bits;
-  constexpr float kInf = std::numeric_limits<float>::infinity();
-  const auto rounded = hn::DemoteTo(f, value);
-  const auto step = hn::IfThenElse(hn::RebindMask(bits, hn::Gt(rounded, hn::Zero(f))), hn::Set(bits, 1), hn::Set(bits, -1));
-  const auto next = hn::BitCast(f, hn::Add(hn::BitCast(bits, rounded), step));
-  const auto finite = hn::IfThenElse(hn::Eq(rounded, hn::Zero(f)), hn::Set(f, std::numeric_limits<float>::denorm_min()), next);
-  const auto other = hn::IfThenElse(hn::Eq(rounded, hn::Set(f, -kInf)), hn::Set(f, std::numeric_limits<float>::lowest()), rounded);
-  return hn::IfThenElse(hn::Lt(hn::Abs(rounded), hn::Set(f, kInf)), finite, other);
+// The lowest four bits of a float are worth 15/16 of 2^-19 of it at most, or 15 of the smallest float.
+inline constexpr double kOutward = 1.0 / (1 << 18), kOutwardLeast = 0x1p-140;
+
+// A float's bits, the lowest four zero, that whatever they become is not above the value, or not below it.
+HWY_INLINE HWY_ATTR hn::Vec<U32> roundedBelow(V value) {
+  const V outer = hn::Sub(value, hn::Add(hn::Mul(hn::Abs(value), all(kOutward)), all(kOutwardLeast)));
+  return hn::AndNot(hn::Set(U32(), DepthPlane::kErrorMask), hn::BitCast(U32(), hn::DemoteTo(F32(), outer)));
 }
-HWY_INLINE HWY_ATTR hn::Vec<F32> below(V value) { return hn::Neg(above(hn::Neg(value))); }
+HWY_INLINE HWY_ATTR hn::Vec<U32> roundedAbove(V value) {
+  const V outer = hn::Add(value, hn::Add(hn::Mul(hn::Abs(value), all(kOutward)), all(kOutwardLeast)));
+  return hn::AndNot(hn::Set(U32(), DepthPlane::kErrorMask), hn::BitCast(U32(), hn::DemoteTo(F32(), outer)));
+}
+
+// DepthPlane's, of a bound that may be +inf.
+HWY_INLINE HWY_ATTR hn::Vec<U32> exponentOf(V error) {
+  const U64 u;
+  constexpr double kLeast = 1.0 / (std::uint64_t{1} << 60), kMost = 0x1p75;
+  static_assert(DepthPlane::kUnknown - DepthPlane::kErrorBias == 75 && DepthPlane::kErrorBias == 3 * 60);
+  const V held = hn::Min(hn::Max(error, all(kLeast * kLeast * kLeast)), all(kMost));
+  const auto exponent = hn::ShiftRight<52>(hn::Add(hn::BitCast(u, held), hn::Set(u, (std::uint64_t{1} << 52) - 1)));
+  return hn::TruncateTo(U32(), hn::Sub(exponent, hn::Set(u, 1023 - DepthPlane::kErrorBias)));
+}
+
+struct Range {
+  V least, most;
+};
 
 // The depths that the class's faces reach.
-HWY_INLINE HWY_ATTR void setRange(const PlaneClassGroup& from, std::size_t i, const DepthView& setup, PlaneBatch& out) {
-  const F32 f;
+HWY_INLINE HWY_ATTR Range rangeOf(const PlaneClassGroup& from, std::size_t i, const DepthView& setup) {
   const V3 lower = promote3(from.boundsMin, i), upper = promote3(from.boundsMax, i);
   const auto middle = [&](V l, V u, double eye) HWY_ATTR { return hn::Sub(hn::Mul(hn::Add(l, u), all(0.5)), all(eye)); };
   const auto half = [&](V l, V u) HWY_ATTR { return hn::Mul(hn::Sub(u, l), all(0.5)); };
@@ -127,16 +137,16 @@ HWY_INLINE HWY_ATTR void setRange(const PlaneClassGroup& from, std::size_t i, co
     least = hn::Div(all(-1), hn::Max(least, all(setup.nearest)));
     most = hn::Div(all(-1), hn::Max(most, all(setup.nearest)));
   }
-  hn::Store(below(least), f, out.lo + i);
-  hn::Store(above(most), f, out.hi + i);
+  return {least, most};
 }
 
 // s = numerator / denominator; the errors of both bound the error of s.
-HWY_INLINE HWY_ATTR void setPlanes(const PlaneClassGroup& from, const GroupPoints& points, std::size_t i, const DepthView& setup, PlaneBatch& out) {
+HWY_INLINE HWY_ATTR void setPlanes(const PlaneClassGroup& from, const GroupPoints& points, std::size_t i, const DepthView& setup, DepthPlane* out) {
   const F64 d;
   const F32 f;
+  const U64 u;
   const View& view = setup.view;
-  const V lo = hn::PromoteTo(d, hn::Load(f, out.lo + i)), hi = hn::PromoteTo(d, hn::Load(f, out.hi + i));
+  const Range range = rangeOf(from, i, setup);
   const V3 n = load3(from.normal, i), point = transformed(points.worldFromPoint, load3(points.at, i));
   const V3 p{hn::Sub(point.x, all(view.eye.x)), hn::Sub(point.y, all(view.eye.y)), hn::Sub(point.z, all(view.eye.z))};
   const V alongPoint = dot(n, p), alongForward = dot(n, view.forward);
@@ -149,27 +159,30 @@ HWY_INLINE HWY_ATTR void setPlanes(const PlaneClassGroup& from, const GroupPoint
   const V numeratorError = hn::Add(rays, view.perspective ? unit : pointError);
   const V a = hn::Div(hn::Neg(dot(n, view.right)), denominator), b = hn::Div(hn::Neg(dot(n, view.down)), denominator);
   const V c = hn::Div(hn::Mul(all(view.perspective ? -1 : 1), constant), denominator);
-  const V largest = hn::Max(hn::Abs(lo), hn::Abs(hi));
+  const V largest = hn::Add(hn::Mul(hn::Max(hn::Abs(range.least), hn::Abs(range.most)), all(1 + 2 * kOutward)), all(2 * kOutwardLeast));
   const V sum = hn::Add(hn::Add(hn::Mul(hn::Abs(a), all(setup.halfWidth)), hn::Mul(hn::Abs(b), all(setup.halfHeight))), hn::Abs(c));
   const V evaluation = hn::Mul(all(8 * kEps), sum);
   const V propagated = hn::Div(hn::Mul(all(2), hn::Add(numeratorError, hn::Mul(largest, denominatorError))), hn::Abs(denominator));
   // The plane may hold the eye: nothing is known but the range.
   const auto known = hn::Gt(hn::Abs(denominator), hn::Mul(all(4), denominatorError));
-  hn::Store(hn::IfThenElseZero(known, a), d, out.a + i);
-  hn::Store(hn::IfThenElseZero(known, b), d, out.b + i);
-  hn::Store(hn::IfThenElse(known, c, hn::Mul(all(0.5), hn::Add(lo, hi))), d, out.c + i);
-  hn::Store(above(hn::IfThenElse(known, hn::Add(evaluation, propagated), all(std::numeric_limits<double>::infinity()))), f, out.error + i);
+  const auto exponent = exponentOf(hn::IfThenElse(known, hn::Add(evaluation, propagated), all(std::numeric_limits<double>::infinity())));
+  const auto lo = hn::Or(roundedBelow(range.least), hn::ShiftRight<DepthPlane::kErrorBits>(exponent));
+  const auto hi = hn::Or(roundedAbove(range.most), hn::And(exponent, hn::Set(U32(), DepthPlane::kErrorMask)));
+  const auto both = hn::Or(hn::PromoteTo(u, lo), hn::ShiftLeft<32>(hn::PromoteTo(u, hi)));
+  static_assert(offsetof(DepthPlane, lo) == 24 && offsetof(DepthPlane, hi) == 28 && std::endian::native == std::endian::little);
+  hn::StoreInterleaved4(hn::IfThenElseZero(known, a), hn::IfThenElseZero(known, b),
+                        hn::IfThenElse(known, c, hn::Mul(all(0.5), hn::Add(range.least, range.most))), hn::BitCast(d, both), d, &out[i].a);
 }
 
 HWY_ATTR void SetDepthPlanes(const Scene& scene, const PlaneClassGroup* groups, std::size_t count, const DepthView& setup, DepthPlane* out) {
   GroupPoints points;
-  PlaneBatch planes;
+  DepthPlane last[PlaneClassGroup::kSize];
   for (std::size_t begin = 0; begin < count; begin += PlaneClassGroup::kSize, ++groups) {
     const std::size_t size = count - begin < PlaneClassGroup::kSize ? count - begin : PlaneClassGroup::kSize;
+    const bool isWhole = size == PlaneClassGroup::kSize;
     points.read(scene, *groups, size);
-    for (std::size_t i = 0; i < size; i += hn::Lanes(F64())) setRange(*groups, i, setup, planes);
-    for (std::size_t i = 0; i < size; i += hn::Lanes(F64())) setPlanes(*groups, points, i, setup, planes);
-    for (std::size_t i = 0; i < size; ++i) out[begin + i] = {planes.a[i], planes.b[i], planes.c[i], planes.lo[i], planes.hi[i], planes.error[i]};
+    for (std::size_t i = 0; i < size; i += hn::Lanes(F64())) setPlanes(*groups, points, i, setup, isWhole ? out + begin : last);
+    if (!isWhole) std::copy_n(last, size, out + begin);
   }
 }
 

@@ -209,29 +209,37 @@ struct Extents {
   }
 };
 
-// Of two floats in a lane.
-HWY_INLINE HWY_ATTR Lanes lowerFloats(Lanes pairs) {
-  const hn::RebindToUnsigned<Exact> u;
-  const hn::Rebind<float, Exact> f;
-  const hn::Rebind<std::uint32_t, Exact> half;
-  static_assert(std::endian::native == std::endian::little);
-  return hn::PromoteTo(Exact(), hn::BitCast(f, hn::TruncateTo(half, hn::BitCast(u, pairs))));
-}
-HWY_INLINE HWY_ATTR Lanes upperFloats(Lanes pairs) {
-  const hn::RebindToUnsigned<Exact> u;
-  return lowerFloats(hn::BitCast(Exact(), hn::ShiftRight<32>(hn::BitCast(u, pairs))));
-}
+// DepthPlane's lo and hi, side by side in a lane, and what their lowest bits hold.
+struct PlaneRange {
+  Lanes lo, hi, error;
+
+  HWY_INLINE HWY_ATTR explicit PlaneRange(Lanes pairs) {
+    const Exact d;
+    const hn::RebindToUnsigned<Exact> u;
+    static_assert(std::endian::native == std::endian::little);
+    const auto bits = hn::BitCast(u, pairs), upper = hn::ShiftRight<32>(bits), mask = hn::Set(u, DepthPlane::kErrorMask);
+    lo = asFloat(bits), hi = asFloat(upper);
+    const auto exponent = hn::Or(hn::ShiftLeft<DepthPlane::kErrorBits>(hn::And(bits, mask)), hn::And(upper, mask));
+    const auto known = hn::BitCast(d, hn::ShiftLeft<52>(hn::Add(exponent, hn::Set(u, 1023 - DepthPlane::kErrorBias))));
+    const auto isUnknown = hn::RebindMask(d, hn::Eq(exponent, hn::Set(u, DepthPlane::kUnknown)));
+    error = hn::IfThenElse(isUnknown, hn::Set(d, std::numeric_limits<double>::infinity()), known);
+  }
+
+ private:
+  static HWY_INLINE HWY_ATTR Lanes asFloat(hn::Vec<hn::RebindToUnsigned<Exact>> bits) {
+    const hn::Rebind<std::uint32_t, Exact> half;
+    return hn::PromoteTo(Exact(), hn::BitCast(hn::Rebind<float, Exact>(), hn::TruncateTo(half, bits)));
+  }
+};
 
 // Depths that the planes reach within the bounds: orderAt's operations in its order, so that none of their samples lies beyond.
 HWY_INLINE HWY_ATTR void addDepths(const EdgeBatch& batch, int i, const TileFrame& tile, Extents& extents) {
   const Exact d;
-  const hn::Rebind<float, Exact> f;
   const Whole whole;
   const Corner first = corner(batch.x0 + i, batch.y0 + i), last = corner(batch.x1 + i, batch.y1 + i);
   // Side by side, then field by field.
   constexpr std::size_t kMost = hn::MaxLanes(d);
   alignas(64) double fields[4 * kMost];
-  alignas(64) float errors[kMost];
   static_assert(offsetof(DepthPlane, c) == 16 && offsetof(DepthPlane, lo) == 24 && offsetof(DepthPlane, hi) == 28);
   const hn::CappedTag<double, 4> fourFields;
 #pragma GCC unroll 8
@@ -240,20 +248,18 @@ HWY_INLINE HWY_ATTR void addDepths(const EdgeBatch& batch, int i, const TileFram
     for (std::size_t field = 0; field < 4; field += hn::Lanes(fourFields)) {
       hn::Store(hn::LoadU(fourFields, &plane.a + field), fourFields, fields + 4 * k + field);
     }
-    errors[k] = plane.error;
   }
-  Lanes a, b, c, range;
-  hn::LoadInterleaved4(d, fields, a, b, c, range);
-  const Lanes lo = lowerFloats(range), hi = upperFloats(range);
+  Lanes a, b, c, pairs;
+  hn::LoadInterleaved4(d, fields, a, b, c, pairs);
+  const PlaneRange range(pairs);
   const Lanes u = hn::Set(d, tile.u), v = hn::Set(d, tile.v);
   const Lanes left = hn::Mul(a, hn::Add(u, first.x)), right = hn::Mul(a, hn::Add(u, last.x));
   const Lanes top = hn::Mul(b, hn::Add(v, first.y)), bottom = hn::Mul(b, hn::Add(v, last.y));
-  const auto clamped = [&](Lanes order) HWY_ATTR { return hn::Min(hn::Max(order, lo), hi); };
+  const auto clamped = [&](Lanes order) HWY_ATTR { return hn::Min(hn::Max(order, range.lo), range.hi); };
   const Lanes least = clamped(hn::Add(hn::Min(left, right), hn::Add(hn::Min(top, bottom), c)));
   const Lanes most = clamped(hn::Add(hn::Max(left, right), hn::Add(hn::Max(top, bottom), c)));
-  const Lanes error = hn::PromoteTo(d, hn::Load(f, errors));
   const auto isSetUp = hn::Ne(hn::PromoteTo(d, hn::Load(whole, batch.side + i)), hn::Zero(d));
-  extents.add(isSetUp, least, most, error, hn::PromoteTo(d, hn::Load(whole, batch.samples + i)));
+  extents.add(isSetUp, least, most, range.error, hn::PromoteTo(d, hn::Load(whole, batch.samples + i)));
 }
 
 // Of any triangles. Their edges and bounds, at as many places from i on as doubles have lanes.

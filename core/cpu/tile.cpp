@@ -121,7 +121,6 @@ void Tile::gather(const Frame& frame, Source source, std::span<const std::uint32
     const std::uint32_t triangle = primitiveOf(frame, references[i]) - source.firstBinned;
     const std::uint32_t planeClass = source.classes[source.mesh->facetOf(triangle)];
     __builtin_prefetch(&frame.depths[planeClass]);
-    __builtin_prefetch(&frame.depths[planeClass].error);
     edges_.primitive[at + i] = source.firstPrimitive + triangle, edges_.planeClass[at + i] = planeClass;
     edges_.object[at + i] = source.index, edges_.turn[at + i] = source.turn;
     corners[i] = source.mesh->triangles[triangle];
@@ -180,7 +179,7 @@ void Tile::findRanges() {
   for (TileObject& object : objects) object.range = {};
   for (const TriangleSetup& t : setups) {
     const DepthRange range = rangeOf(t);
-    const double error = keys.planeOf(t).error;
+    const double error = keys.planeOf(t).error();
     objects[slots[t.slot].object].range.add(range.least - error, range.most + error);
   }
 }
@@ -191,7 +190,7 @@ void Tile::rangesOfBlocks(std::vector<DepthRange>& ranges) const {
   for (const TriangleSetup& t : setups) {
     const std::uint32_t object = slots[t.slot].object;
     if (!objects[object].keep) continue;
-    const double error = keys.planeOf(t).error;
+    const double error = keys.planeOf(t).error();
     for (int by = t.y0 / kBlockSize; by <= t.y1 / kBlockSize; ++by) {
       for (int bx = t.x0 / kBlockSize; bx <= t.x1 / kBlockSize; ++bx) {
         const int x = bx * kBlockSize, y = by * kBlockSize;
@@ -225,7 +224,7 @@ void Tile::drop(double farthest) {
   for (const TriangleSetup& t : setups) {
     const DepthRange range = rangeOf(t);
     if (!objects[slots[t.slot].object].keep || range.least > farthest) continue;
-    extent.add(range.least, range.most, keys.planeOf(t).error, keys.samplesOf(t));
+    extent.add(range.least, range.most, keys.planeOf(t).error(), keys.samplesOf(t));
     setups[kept++] = t;
   }
   setups = setups.first(kept);
@@ -248,7 +247,7 @@ void Tile::scaleDepths(bool decideAllExactly) {
   coarseBounds.assign(coarse ? slots.size() : 0, 0);
   double common = coarse ? 0 : inUnits(extent_.mostError);
   for (std::size_t i = 0; coarse && i < setups.size(); ++i) {
-    const double error = inUnits(keys.planeOf(setups[i]).error);
+    const double error = inUnits(keys.planeOf(setups[i]).error());
     if (error <= double{kCoarse} && !decideAllExactly) common = std::max(common, error);
     else coarseBounds[setups[i].slot] = decideAllExactly ? kMostUncertainty : roundedUp(std::min(error, double{kMostUncertainty}));
   }

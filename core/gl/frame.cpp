@@ -169,7 +169,7 @@ void Frame::writeFrameBlock(const DepthPlanes& depths) {
   std::vector<PlaneRecord> records;
   records.reserve(depths.size());
   for (const DepthPlane& plane : depths) {
-    const bool holdsEye = std::isinf(plane.error);
+    const bool holdsEye = std::isinf(plane.error());
     records.push_back({plane.a, plane.b, plane.c, holdsEye ? 1.0f : plane.lo, holdsEye ? 0.0f : plane.hi});
   }
   planes_ = Buffer(records);

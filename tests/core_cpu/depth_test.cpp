@@ -78,7 +78,7 @@ TEST(Depth, errorBoundsHold) {
       const double u = i + 0.5 - 16.5;
       const Real t = p.trueDepth(0, i, i), s = perspective ? -1 / t : t;
       const Real truth = std::clamp(s, Real(plane.lo), Real(plane.hi)), value = std::clamp(plane.a * u + (plane.b * u + plane.c), double(plane.lo), double(plane.hi));
-      EXPECT_LE(std::abs(double(value - truth)), plane.error) << "round " << round;
+      EXPECT_LE(std::abs(double(value - truth)), plane.error()) << "round " << round;
     }
   }
 }
@@ -130,7 +130,7 @@ TEST(Depth, aFaceWhosePlaneHoldsTheEyeDoesNoHarm) {
       }
     }
     for (const DepthPlane& plane : p.frame.depths) {
-      ASSERT_FALSE(std::isnan(plane.a) || std::isnan(plane.b) || std::isnan(plane.c) || std::isnan(plane.error));
+      ASSERT_FALSE(std::isnan(plane.a) || std::isnan(plane.b) || std::isnan(plane.c) || std::isnan(plane.error()));
     }
   }
 }
