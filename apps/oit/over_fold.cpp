@@ -35,17 +35,17 @@ void OverFold::finishResult() {
   ready_ = true;
 }
 
-std::uint64_t OverFold::foldBlock(const cpu::FragmentBlock& block, const cpu::Tile& tile, const cpu::BlockOrder& order, int x, int y) {
+FoldedPixels OverFold::foldBlock(const cpu::FragmentBlock& block, const cpu::Tile& tile, std::uint64_t pixels, int x, int y) {
   const Targets& targets = canvas_.targets();
-  const fold::OverBlock from{block, tile.keys.format, colors_.data(), background_, mayEnd_};
+  const fold::OverBlock from{block, tile, pixels, colors_.data(), background_, mayEnd_};
   const bool wantsNearest = targets.depth || targets.ids;
   if (targets.color && !targets.floats && !wantsNearest && !targets.counts()) {
-    return fold::blendColors(from, order, &targets.color->at(x, y), targets.color->width);
+    return fold::blendColors(from, &targets.color->at(x, y), targets.color->width);
   }
   fold::BlendedPixel blended[cpu::kBlockPixels];
-  const std::uint64_t coplanar = fold::blendBlock(from, order, blended);
-  for (std::uint64_t pixels = order.certain; pixels; pixels &= pixels - 1) {
-    const int p = std::countr_zero(pixels);
+  const FoldedPixels found = fold::blendBlock(from, blended);
+  for (std::uint64_t left = found.folded; left; left &= left - 1) {
+    const int p = std::countr_zero(left);
     const fold::BlendedPixel& pixel = blended[p];
     PixelResult result;
     result.color = {pixel.color[0], pixel.color[1], pixel.color[2]};
@@ -54,7 +54,7 @@ std::uint64_t OverFold::foldBlock(const cpu::FragmentBlock& block, const cpu::Ti
     if (wantsNearest) result.nearest = nearestSeen(stackOf(block, p, tile));
     canvas_.put({x + p % cpu::kBlockSize, y + p / cpu::kBlockSize, 1, 1}, result, tile);
   }
-  return coplanar;
+  return found;
 }
 
 // Of an ordered pixel: the first fragment that is not quite clear.
@@ -70,14 +70,10 @@ void OverFold::takeNearest(cpu::Tile& tile, std::uint64_t* keys) {
   narrowTile(tile);
   for (int b = 0; b < cpu::kBlocksPerTile; ++b, keys += cpu::kBlockPixels) {
     std::uint32_t counts[cpu::kBlockPixels];
-    cpu::BlockOrder order;
-    for (int p = 0; p < cpu::kBlockPixels; ++p) {
-      counts[p] = keys[p] != cpu::kEmptyKey;
-      order.certain |= std::uint64_t{counts[p]} << p;
-    }
-    if (!order.certain) continue;
+    for (int p = 0; p < cpu::kBlockPixels; ++p) counts[p] = keys[p] != cpu::kEmptyKey;
+    if (std::all_of(counts, counts + cpu::kBlockPixels, [](std::uint32_t count) { return count == 0; })) continue;
     const int x = b % cpu::kBlocksPerSide * cpu::kBlockSize, y = b / cpu::kBlocksPerSide * cpu::kBlockSize;
-    foldBlock({keys, counts, cpu::kBlockPixels}, tile, order, tile.x0 + x, tile.y0 + y);
+    foldBlock({keys, counts, cpu::kBlockPixels}, tile, ~std::uint64_t{0}, tile.x0 + x, tile.y0 + y);
   }
 }
 

@@ -119,7 +119,7 @@ class OverFold {
   }
 
   // Whole blocks at once (core/fold/fold.h). Layers and groups are counted pixel by pixel; the z-buffer's are 1.
-  std::uint64_t foldBlock(const cpu::FragmentBlock& block, const cpu::Tile& tile, const cpu::BlockOrder& order, int x, int y);
+  FoldedPixels foldBlock(const cpu::FragmentBlock& block, const cpu::Tile& tile, std::uint64_t pixels, int x, int y);
 
   // The z-buffer's tile, with a fragment a pixel at most.
   void takeNearest(cpu::Tile& tile, std::uint64_t* keys);

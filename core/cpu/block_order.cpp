@@ -21,12 +21,9 @@
 namespace copeel::cpu {
 
 HWY_EXPORT(SortBlock);
-HWY_EXPORT(OrderOfBlock);
 HWY_EXPORT(SameStacks);
 
 void sortBlock(const FragmentBlock& block) { HWY_DYNAMIC_DISPATCH(SortBlock)(block); }
-
-BlockOrder orderOfBlock(const FragmentBlock& block, const Tile& tile) { return HWY_DYNAMIC_DISPATCH(OrderOfBlock)(block, tile); }
 
 bool sameStacks(const FragmentBlock& block, const Tile& tile) { return HWY_DYNAMIC_DISPATCH(SameStacks)(block, tile); }
 

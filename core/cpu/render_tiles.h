@@ -246,9 +246,9 @@ class TileRenderer {
   void foldCertain(const FragmentBlock& block, int b, int x, int y) {
     if constexpr (requires { fold_.takesBlocks(); }) {
       if (!fold_.takesBlocks()) return;
-      const BlockOrder order = orderOfBlock(block, tile_).without(done_[b]);
-      coplanarPixels_ += std::popcount(fold_.foldBlock(block, tile_, order, x, y));
-      done_[b] |= order.certain;
+      const FoldedPixels pixels = fold_.foldBlock(block, tile_, ~done_[b], x, y);
+      coplanarPixels_ += std::popcount(pixels.coplanar);
+      done_[b] |= pixels.folded;
     }
   }
 

@@ -2,9 +2,8 @@
 // when a coplanar group is complete, and may say "enough". One fold object serves one thread. A result depends on the triangles met and their grouping
 // alone, not on the pixel or the depths: neighbouring pixels with the same fragments are folded once.
 //
-// A fold that takesBlocks() also has foldBlock(block, tile, order, x, y), which folds at once the certain pixels of a block (block_order.h:
-// BlockOrder) and ends them: keys ascend, and runs of equal depth are coplanar. x, y: the block's first pixel in the image. It returns
-// the pixels that met coplanar fragments.
+// A fold that takesBlocks() also has foldBlock(block, tile, pixels, x, y), which folds at once those of the pixels of a sorted block whose keys tell the
+// order of what is met, and ends them. x, y: the block's first pixel in the image. It returns FoldedPixels.
 #pragma once
 
 #include <algorithm>
@@ -16,6 +15,12 @@
 #include "core/image/image.h"
 
 namespace copeel {
+
+// Of a block, a bit each.
+struct FoldedPixels {
+  std::uint64_t folded = 0;
+  std::uint64_t coplanar = 0;   // folded, and met coplanar fragments
+};
 
 // The fragments of a pixel.
 struct PixelStack {

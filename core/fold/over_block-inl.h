@@ -8,6 +8,7 @@
 
 #include <hwy/highway.h>
 
+#include "core/cpu/lanes-inl.h"
 #include "core/fold/over_block.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -51,12 +52,11 @@ struct Result {
       color[part] = hn::Add(state.color[part], hn::Mul(hn::Load(d, background + part * hn::MaxLanes(d)), hn::Set(d, state.transmittance)));
     }
   }
-  // overLevels.
+  // overLevels: no colour is beyond 255 but by rounding, and what is below 0 saturates.
   HWY_INLINE HWY_ATTR void toBytes(std::uint8_t* bytes) const {
     const Channels d;
     for (std::size_t part = 0; part < kParts; ++part) {
-      const auto clamped = hn::Min(hn::Max(color[part], hn::Zero(d)), hn::Set(d, 255.0));
-      const auto levels = hn::DemoteTo(Ints(), hn::Add(clamped, hn::Set(d, 0.5 + 1.0 / 8589934592.0)));
+      const auto levels = hn::DemoteTo(Ints(), hn::Add(color[part], hn::Set(d, 0.5 + 1.0 / 8589934592.0)));
       hn::StoreU(hn::DemoteTo(Bytes(), levels), Bytes(), bytes + part * hn::MaxLanes(d));
     }
   }
@@ -89,74 +89,138 @@ struct ToImage {
 // What every pixel of a block needs, at hand.
 struct Source {
   const glm::vec4* colors;
-  std::uint64_t slotMask;
-  std::size_t stride;
+  const cpu::TileSlot* slots;
   cpu::KeyFormat format;
-  bool mayEnd;
+  std::uint64_t slotMask;
+  std::uint64_t reach;      // keys so far from each other, or farther, have depths that are certainly apart
+  std::ptrdiff_t stride;    // bytes; elements would make g++ write each loop twice, for a stride of one, too
 
   HWY_INLINE HWY_ATTR explicit Source(const OverBlock& from)
-      : colors(from.colors), slotMask(from.format.slotMask()), stride(from.block.stride), format(from.format), mayEnd(from.mayEnd) {}
-  HWY_INLINE const glm::vec4& colorOf(std::uint64_t key) const { return colors[~key & slotMask]; }
+      : colors(from.colors), slots(from.tile.slots.data()), format(from.tile.keys.format), slotMask(format.slotMask()),
+        reach((2 * format.uncertainty + 1) << format.slotBits()), stride(static_cast<std::ptrdiff_t>(from.block.stride * sizeof(std::uint64_t))) {}
+  const std::uint64_t* next(const std::uint64_t* key) const {
+    return reinterpret_cast<const std::uint64_t*>(reinterpret_cast<const std::byte*>(key) + stride);
+  }
+  std::size_t slotOf(std::uint64_t key) const { return ~key & slotMask; }
+  // Of two keys that are not of one plane class.
+  bool areApart(std::uint64_t nearer, std::uint64_t farther) const { return format.depthOf(farther) - format.depthOf(nearer) > 2 * format.uncertainty; }
 };
 
-// Returns how many fragments were met.
-template <bool kMayEnd>
-HWY_INLINE HWY_ATTR std::uint32_t blendFragments(const Source& from, const std::uint64_t* key, std::uint32_t count, State& state) {
-  for (std::uint32_t i = 0; i < count; ++i, key += from.stride) {
-    blendFragment(state, from.colorOf(*key));
-    if (kMayEnd && state.transmittance == 0.0) return i + 1;
-  }
-  return count;
+// How a pixel was met.
+struct Met {
+  std::uint32_t count = 0;   // keys that were looked at; of a pixel that ended the last one was not blended
+  bool certain = false, coplanar = false;
+};
+
+// `visit(color)`, which returns false to end, for the fragments of a pixel, one or more, as far as its keys tell their order.
+template <class Visit>
+HWY_INLINE HWY_ATTR Met meet(const Source& from, const std::uint64_t* keys, std::uint32_t count, Visit visit) {
+  bool coplanar = false;
+  std::uint64_t before = *keys + 1;   // far from the first
+  std::uint32_t left = count;
+  do {
+    const std::uint64_t key = *keys;
+    const std::size_t slot = from.slotOf(key);
+    if (key - before < from.reach) {
+      // Those of a plane class have one depth.
+      if (from.slots[slot].planeClass == from.slots[from.slotOf(before)].planeClass) coplanar = true;
+      else if (!from.areApart(before, key)) return {};
+    }
+    if (!visit(from.colors[slot])) {
+      --left;
+      break;
+    }
+    before = key;
+    keys = from.next(keys);
+  } while (--left > 0);
+  return {count - left, true, coplanar};
 }
 
-// Some of the first `met` fragments of a pixel have others at their depth.
-inline bool meetsCoplanar(const Source& from, const std::uint64_t* keys, std::uint32_t met, std::uint32_t count) {
-  for (std::uint32_t i = 0; i < met && i + 1 < count; ++i) {
-    if (from.format.depthOf(keys[i * from.stride]) == from.format.depthOf(keys[(i + 1) * from.stride])) return true;
+// Which of some pixels of a row have the slots of the one before, all their layers.
+HWY_INLINE HWY_ATTR std::uint32_t repeatsOfRow(const Source& from, const std::uint64_t* keys, std::uint32_t layers, std::uint32_t repeats) {
+  const hn::CappedTag<std::uint64_t, cpu::kBlockSize> u;
+  constexpr std::uint64_t kNone = std::uint64_t{1} << cpu::kKeyBits;   // the bit that kEmptyKey has, and no key
+  const auto slot = hn::Set(u, from.slotMask | kNone);
+  for (std::uint32_t i = 0; i < layers && repeats; ++i, keys = from.next(keys)) {
+    std::uint32_t same = 0;
+    for (std::size_t lane = 0; lane < cpu::kBlockSize; lane += hn::Lanes(u)) {
+      const auto differs = hn::And(hn::Xor(hn::LoadU(u, keys + lane), hn::LoadU(u, keys + lane + 1)), slot);
+      same |= cpu::HWY_NAMESPACE::bitsOf(u, hn::Eq(differs, hn::Zero(u))) << lane;
+    }
+    repeats &= same << 1;
   }
-  return false;
+  return repeats;
+}
+
+// Pixels of a row that have fragments.
+HWY_INLINE HWY_ATTR std::uint32_t filledOfRow(const std::uint32_t* counts) {
+  const hn::CappedTag<std::uint32_t, cpu::kBlockSize> d;
+  std::uint32_t filled = 0;
+  for (std::size_t lane = 0; lane < cpu::kBlockSize; lane += hn::Lanes(d)) {
+    filled |= cpu::HWY_NAMESPACE::bitsOf(d, hn::Ne(hn::LoadU(d, counts + lane), hn::Zero(d))) << lane;
+  }
+  return filled;
+}
+
+// Pixels of a row with a slot whose neighbours in depth order may not be adjacent.
+inline std::uint32_t coarseOfRow(const OverBlock& from, int row) {
+  std::uint32_t coarse = 0;
+  for (int x = 0; x < cpu::kBlockSize; ++x) coarse |= std::uint32_t{stackOf(from.block, row * cpu::kBlockSize + x, from.tile).hasCoarse()} << x;
+  return coarse;
 }
 
 // `to(row)`: where results of a row go.
-template <class To>
-HWY_INLINE HWY_ATTR std::uint64_t blendRows(const OverBlock& block, const cpu::BlockOrder& order, To to) {
+template <bool kMayEnd, class To>
+HWY_INLINE HWY_ATTR FoldedPixels blendRows(const OverBlock& block, To to) {
   const Source from(block);
   alignas(32) const double background[4] = {block.background.r, block.background.g, block.background.b, 0};
-  std::uint64_t coplanar = 0;
-  for (int first = 0; first < cpu::kBlockPixels; first += cpu::kBlockSize) {
+  FoldedPixels result;
+  for (int row = 0; row < cpu::kBlockSize; ++row) {
+    const int first = row * cpu::kBlockSize;
     const std::uint64_t* const keys = block.block.keys + first;
     const std::uint32_t* const counts = block.block.counts + first;
-    const auto bitsOfRow = [first](std::uint64_t pixels) { return static_cast<std::uint32_t>(pixels >> first) & 0xFF; };
-    std::uint32_t left = bitsOfRow(order.certain);
-    if (!left) continue;   // the row may lie below the image
-    const auto out = to(first / cpu::kBlockSize);
-    const std::uint32_t repeats = bitsOfRow(order.repeats);
-    std::uint32_t coplanarOfRow = bitsOfRow(order.coplanar);
-    for (; left; left &= left - 1) {
+    std::uint32_t folded = filledOfRow(counts) & static_cast<std::uint32_t>(block.pixels >> first), coplanar = 0;
+    if (block.tile.coarse) folded &= ~coarseOfRow(block, row);
+    if (!folded) continue;   // the row may lie below the image
+    const auto out = to(row);
+    const std::uint32_t repeats = repeatsOfRow(from, keys, cpu::HWY_NAMESPACE::largestOf({counts, cpu::kBlockSize}), folded & folded << 1);
+    Met met;   // by the last one that was folded
+    for (std::uint32_t left = folded; left; left &= left - 1) {
       const int x = __builtin_ctz(left);
-      if (repeats >> x & 1) {
-        out.repeat(x);
-        coplanarOfRow = (coplanarOfRow & ~(1u << x)) | (coplanarOfRow >> (x - 1) & 1) << x;
-        continue;
-      }
+      const bool again = repeats & folded << 1 & 1u << x;
       State state;
-      for (auto& part : state.color) part = hn::Zero(Channels());
-      const std::uint32_t count = counts[x];
-      const std::uint32_t met = from.mayEnd ? blendFragments<true>(from, keys + x, count, state) : blendFragments<false>(from, keys + x, count, state);
-      if (met < count && coplanarOfRow >> x & 1 && !meetsCoplanar(from, keys + x, met, count)) coplanarOfRow ^= 1u << x;
-      out.put(x, Result(state, background));
+      if (again) {
+        met = meet(from, keys + x, met.count, [](const glm::vec4&) { return true; });
+      } else {
+        for (auto& part : state.color) part = hn::Zero(Channels());
+        met = meet(from, keys + x, counts[x], [&state](const glm::vec4& color) HWY_ATTR {
+          if (kMayEnd && state.transmittance == 0.0) return false;
+          blendFragment(state, color);
+          return true;
+        });
+      }
+      if (!met.certain) folded &= ~(1u << x);
+      else if (again) out.repeat(x);
+      else out.put(x, Result(state, background));
+      if (met.coplanar) coplanar |= 1u << x;
     }
-    coplanar |= std::uint64_t{coplanarOfRow} << first;
+    result.folded |= std::uint64_t{folded} << first;
+    result.coplanar |= std::uint64_t{coplanar} << first;
   }
-  return coplanar;
+  return result;
 }
 
-HWY_ATTR std::uint64_t BlendBlock(const OverBlock& from, const cpu::BlockOrder& order, BlendedPixel* out) {
-  return blendRows(from, order, [out](int row) { return ToPixels{out + row * cpu::kBlockSize}; });
+template <class To>
+HWY_INLINE HWY_ATTR FoldedPixels blend(const OverBlock& from, To to) {
+  return from.mayEnd ? blendRows<true>(from, to) : blendRows<false>(from, to);
 }
 
-HWY_ATTR std::uint64_t BlendColors(const OverBlock& from, const cpu::BlockOrder& order, Rgb8* first, std::ptrdiff_t rowPixels) {
-  return blendRows(from, order, [=](int row) { return ToImage{first + row * rowPixels}; });
+HWY_ATTR FoldedPixels BlendBlock(const OverBlock& from, BlendedPixel* out) {
+  return blend(from, [out](int row) { return ToPixels{out + row * cpu::kBlockSize}; });
+}
+
+HWY_ATTR FoldedPixels BlendColors(const OverBlock& from, Rgb8* first, std::ptrdiff_t rowPixels) {
+  return blend(from, [=](int row) { return ToImage{first + row * rowPixels}; });
 }
 
 HWY_ATTR void ShadeSlots(const SlotShading& shadingOfTile, std::span<const cpu::TileSlot> slots, glm::vec4* colors) {

@@ -14,12 +14,10 @@ HWY_EXPORT(BlendBlock);
 HWY_EXPORT(BlendColors);
 HWY_EXPORT(ShadeSlots);
 
-std::uint64_t blendBlock(const OverBlock& from, const cpu::BlockOrder& order, BlendedPixel* out) {
-  return HWY_DYNAMIC_DISPATCH(BlendBlock)(from, order, out);
-}
+FoldedPixels blendBlock(const OverBlock& from, BlendedPixel* out) { return HWY_DYNAMIC_DISPATCH(BlendBlock)(from, out); }
 
-std::uint64_t blendColors(const OverBlock& from, const cpu::BlockOrder& order, Rgb8* first, std::ptrdiff_t rowPixels) {
-  return HWY_DYNAMIC_DISPATCH(BlendColors)(from, order, first, rowPixels);
+FoldedPixels blendColors(const OverBlock& from, Rgb8* first, std::ptrdiff_t rowPixels) {
+  return HWY_DYNAMIC_DISPATCH(BlendColors)(from, first, rowPixels);
 }
 
 void shadeSlots(const SlotShading& shading, std::span<const cpu::TileSlot> slots, glm::vec4* colors) {

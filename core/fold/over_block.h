@@ -1,5 +1,5 @@
 // The fold of transparency on a block of 8×8 pixels at once: core/fold/over.glsl's operations in its order, so the same bits, vectorised over the
-// channels with run-time dispatch. For blocks whose keys are sorted and tell the order of their pixels. Slots of a tile are shaded so, too.
+// channels with run-time dispatch. For pixels whose sorted keys tell their order. Slots of a tile are shaded so, too.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "core/cpu/block_order.h"
 #include "core/cpu/tile.h"
+#include "core/fold/fold.h"
 #include "core/image/image.h"
 
 namespace copeel::fold {
@@ -37,17 +37,18 @@ struct BlendedPixel {
 };
 
 struct OverBlock {
-  cpu::FragmentBlock block;
-  cpu::KeyFormat format;
+  cpu::FragmentBlock block;  // sorted
+  const cpu::Tile& tile;
+  std::uint64_t pixels;      // that are wanted, a bit each
   const glm::vec4* colors;   // per slot, 0 … 255 and alpha
   glm::vec3 background;      // 0 … 255
   bool mayEnd;               // some colour is opaque: what lies behind it is not met
 };
 
-// Blends the pixels that have a bit in `order.certain`. Returns those that meet coplanar fragments.
-std::uint64_t blendBlock(const OverBlock& from, const cpu::BlockOrder& order, BlendedPixel* out);
+// Blends the wanted pixels that have fragments, and whose keys tell the order of those that are met.
+FoldedPixels blendBlock(const OverBlock& from, BlendedPixel* out);
 
 // The same to an image, whose rows are `rowPixels` long. first: the block's first pixel in it.
-std::uint64_t blendColors(const OverBlock& from, const cpu::BlockOrder& order, Rgb8* first, std::ptrdiff_t rowPixels);
+FoldedPixels blendColors(const OverBlock& from, Rgb8* first, std::ptrdiff_t rowPixels);
 
 }  // namespace copeel::fold
