@@ -15,7 +15,6 @@ namespace copeel::bench {
 namespace {
 
 constexpr const char* kNoTime = "left out: no time is left";
-constexpr double kEnoughMs = 1500;         // of one method in one scene: then its timed frames end
 constexpr double kFramesToWarm = 4;        // two frames, the counts, which are another one, and one that is timed
 constexpr double kPassesThatTell = 3;      // a method of so many tells the time of a pass; of fewer, other work takes as long
 

@@ -16,6 +16,9 @@
 
 namespace copeel::bench {
 
+// Of one method in one scene: then its timed frames end.
+inline constexpr double kEnoughMs = 1500;
+
 struct MeasureOptions {
   std::vector<MethodRun> methods;
   int frames = 3;                        // timed; fewer where the budget ends

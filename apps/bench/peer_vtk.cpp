@@ -1,7 +1,6 @@
 #include "apps/bench/peer_vtk.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/bench/deadline.h"
+#include "apps/bench/measure.h"
 #include "apps/csg/process.h"
 #include "core/error.h"
 #include "core/output_file.h"
@@ -49,6 +50,7 @@ Json jsonOf(const VtkJob& job, const View& view, const std::string& mesh) {
           {"width", view.width},
           {"height", view.height},
           {"frames", job.frames},
+          {"enough_ms", kEnoughMs},
           {"eye", {view.eye.x, view.eye.y, view.eye.z}},
           {"forward", {view.forward.x, view.forward.y, view.forward.z}},
           {"up", {up.x, up.y, up.z}},
@@ -71,10 +73,11 @@ std::pair<double, std::uint64_t> tileOf(const BenchScene& scene, const View& vie
   options.lit = false;
   oit::Renderer renderer(scene.parts, options);
   double least = 1e300;
-  for (int i = 0; i <= frames; ++i) {
-    const auto start = std::chrono::steady_clock::now();
+  const Deadline deadline(kEnoughMs);
+  for (int i = 0; i <= frames || deadline.leftMs() > 0; ++i) {
+    const Deadline frame;
     renderer.draw(view);
-    least = std::min(least, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    least = std::min(least, frame.passedMs());
   }
   return {least, renderer.stats().fragments};
 }

@@ -17,7 +17,7 @@ struct PeerEntry {
   double tileMs = 0;              // of ours, the same scene and size
 };
 
-// A mesh, how often it is drawn, and how.
+// A mesh, how often it is drawn, and how; by both for kEnoughMs (measure.h), and so many frames at least.
 struct VtkJob {
   const Mesh* mesh;
   std::size_t copies;

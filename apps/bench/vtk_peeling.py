@@ -45,7 +45,7 @@ window.AddRenderer(renderer)
 window.Render()
 
 milliseconds = []
-for _ in range(job["frames"]):
+while len(milliseconds) < job["frames"] or sum(milliseconds) < job["enough_ms"]:
     start = time.perf_counter()
     window.Render()
     window.WaitForCompletion()
