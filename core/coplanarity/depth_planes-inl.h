@@ -21,23 +21,32 @@ struct DepthView {
   double right, down;             // lengths
 };
 
-// The first vertex of each representative of a group, and where it lies. Points of one object, as nearly all are, are left for a vector to place.
+// The first vertex of each representative of a group, and where it lies. Points of one object, as nearly all are, are left for a vector to place, if
+// the object is not where its mesh is.
 struct GroupPoints {
   alignas(64) double at[3][PlaneClassGroup::kSize] = {};
-  glm::dmat4 worldFromPoint{1.0};
+  const Object* placed = nullptr;   // the object whose points are still to be placed; null: none
 
   void read(const Scene& scene, const PlaneClassGroup& group, std::size_t count) {
     const std::uint32_t first = group.object[0];
     bool isOne = true;
     for (std::size_t i = 0; i < count; ++i) isOne &= group.object[i] == first;
     const Object& object = scene.objects()[first];
+    if (&object != last_) {
+      last_ = &object;
+      isWhereItsMeshIs_ = object.worldFromObject == glm::dmat4(1.0);
+    }
+    placed = isOne && !isWhereItsMeshIs_ ? &object : nullptr;
     const Mesh& mesh = *object.mesh;
-    worldFromPoint = isOne ? object.worldFromObject : glm::dmat4(1.0);
     for (std::size_t i = 0; i < count; ++i) {
       const glm::dvec3 p = isOne ? mesh.vertices[mesh.triangles[group.triangle[i]].x] : pointOf(scene, group.get(i));
       for (int k = 0; k < 3; ++k) at[k][i] = p[k];
     }
   }
+
+ private:
+  const Object* last_ = nullptr;
+  bool isWhereItsMeshIs_ = false;
 };
 
 }  // namespace copeel
@@ -147,7 +156,7 @@ HWY_INLINE HWY_ATTR void setPlanes(const PlaneClassGroup& from, const GroupPoint
   const U64 u;
   const View& view = setup.view;
   const Range range = rangeOf(from, i, setup);
-  const V3 n = load3(from.normal, i), point = transformed(points.worldFromPoint, load3(points.at, i));
+  const V3 n = load3(from.normal, i), read = load3(points.at, i), point = points.placed ? transformed(points.placed->worldFromObject, read) : read;
   const V3 p{hn::Sub(point.x, all(view.eye.x)), hn::Sub(point.y, all(view.eye.y)), hn::Sub(point.z, all(view.eye.z))};
   const V alongPoint = dot(n, p), alongForward = dot(n, view.forward);
   const V unit = hn::Add(hn::PromoteTo(d, hn::LoadU(f, from.normalError + i)), all(8 * kEps));   // error of a dot product with n, per length of the other vector
