@@ -25,21 +25,32 @@ using Bytes = hn::Rebind<std::uint8_t, Channels>;
 
 inline constexpr std::size_t kParts = 4 / hn::MaxLanes(Channels());
 
-// OverState.
+// OverState; the transmittance in every lane.
 struct State {
-  hn::Vec<Channels> color[kParts];
-  double transmittance = 1;
+  hn::Vec<Channels> color[kParts], transmittance;
+
+  HWY_INLINE HWY_ATTR State() {
+    for (auto& part : color) part = hn::Zero(Channels());
+    transmittance = hn::Set(Channels(), 1.0);
+  }
+  HWY_INLINE HWY_ATTR bool isOpaque() const { return hn::GetLane(transmittance) == 0.0; }
 };
 
-HWY_INLINE HWY_ATTR void blendFragment(State& state, const glm::vec4& fragment) {
+// Puts the last channel in every lane.
+HWY_INLINE HWY_ATTR auto alphaLanes() {
+  alignas(32) constexpr std::int64_t kLast[] = {3, 3, 3, 3}, kOnly[] = {0, 0, 0, 0};
+  return hn::SetTableIndices(Channels(), kParts == 1 ? kLast : kOnly);
+}
+using AlphaLanes = decltype(alphaLanes());
+
+HWY_INLINE HWY_ATTR void blendFragment(State& state, const glm::vec4& fragment, AlphaLanes alphaLanes) {
   const Channels d;
-  const double alpha = fragment.a;
-  const auto weight = hn::Set(d, state.transmittance * alpha);
-  for (std::size_t part = 0; part < kParts; ++part) {
-    const auto color = hn::PromoteTo(d, hn::LoadU(Floats(), &fragment.r + part * hn::MaxLanes(d)));
-    state.color[part] = hn::Add(state.color[part], hn::Mul(color, weight));
-  }
-  state.transmittance *= 1.0 - alpha;
+  hn::Vec<Channels> color[kParts];
+  for (std::size_t part = 0; part < kParts; ++part) color[part] = hn::PromoteTo(d, hn::LoadU(Floats(), &fragment.r + part * hn::MaxLanes(d)));
+  const auto alpha = kParts == 1 ? hn::TableLookupLanes(color[0], alphaLanes) : hn::Set(d, static_cast<double>(fragment.a));
+  const auto weight = hn::Mul(state.transmittance, alpha);
+  for (std::size_t part = 0; part < kParts; ++part) state.color[part] = hn::Add(state.color[part], hn::Mul(color[part], weight));
+  state.transmittance = hn::Mul(state.transmittance, hn::Sub(hn::Set(d, 1.0), alpha));
 }
 
 // overResult.
@@ -49,7 +60,7 @@ struct Result {
   HWY_INLINE HWY_ATTR Result(const State& state, const double* background) {
     const Channels d;
     for (std::size_t part = 0; part < kParts; ++part) {
-      color[part] = hn::Add(state.color[part], hn::Mul(hn::Load(d, background + part * hn::MaxLanes(d)), hn::Set(d, state.transmittance)));
+      color[part] = hn::Add(state.color[part], hn::Mul(hn::Load(d, background + part * hn::MaxLanes(d)), state.transmittance));
     }
   }
   // overLevels: no colour is beyond 255 but by rounding, and what is below 0 saturates.
@@ -93,14 +104,11 @@ struct Source {
   cpu::KeyFormat format;
   std::uint64_t slotMask;
   std::uint64_t reach;      // keys so far from each other, or farther, have depths that are certainly apart
-  std::ptrdiff_t stride;    // bytes; elements would make g++ write each loop twice, for a stride of one, too
+  std::size_t stride;
 
   HWY_INLINE HWY_ATTR explicit Source(const OverBlock& from)
       : colors(from.colors), slots(from.tile.slots.data()), format(from.tile.keys.format), slotMask(format.slotMask()),
-        reach((2 * format.uncertainty + 1) << format.slotBits()), stride(static_cast<std::ptrdiff_t>(from.block.stride * sizeof(std::uint64_t))) {}
-  const std::uint64_t* next(const std::uint64_t* key) const {
-    return reinterpret_cast<const std::uint64_t*>(reinterpret_cast<const std::byte*>(key) + stride);
-  }
+        reach((2 * format.uncertainty + 1) << format.slotBits()), stride(from.block.stride) {}
   std::size_t slotOf(std::uint64_t key) const { return ~key & slotMask; }
   // Of two keys that are not of one plane class.
   bool areApart(std::uint64_t nearer, std::uint64_t farther) const { return format.depthOf(farther) - format.depthOf(nearer) > 2 * format.uncertainty; }
@@ -131,7 +139,7 @@ HWY_INLINE HWY_ATTR Met meet(const Source& from, const std::uint64_t* keys, std:
       break;
     }
     before = key;
-    keys = from.next(keys);
+    keys += from.stride;
   } while (--left > 0);
   return {count - left, true, coplanar};
 }
@@ -141,7 +149,7 @@ HWY_INLINE HWY_ATTR std::uint32_t repeatsOfRow(const Source& from, const std::ui
   const hn::CappedTag<std::uint64_t, cpu::kBlockSize> u;
   constexpr std::uint64_t kNone = std::uint64_t{1} << cpu::kKeyBits;   // the bit that kEmptyKey has, and no key
   const auto slot = hn::Set(u, from.slotMask | kNone);
-  for (std::uint32_t i = 0; i < layers && repeats; ++i, keys = from.next(keys)) {
+  for (std::uint32_t i = 0; i < layers && repeats; ++i, keys += from.stride) {
     std::uint32_t same = 0;
     for (std::size_t lane = 0; lane < cpu::kBlockSize; lane += hn::Lanes(u)) {
       const auto differs = hn::And(hn::Xor(hn::LoadU(u, keys + lane), hn::LoadU(u, keys + lane + 1)), slot);
@@ -174,6 +182,7 @@ template <bool kMayEnd, class To>
 HWY_INLINE HWY_ATTR FoldedPixels blendRows(const OverBlock& block, To to) {
   const Source from(block);
   alignas(32) const double background[4] = {block.background.r, block.background.g, block.background.b, 0};
+  const AlphaLanes alphaOnly = alphaLanes();
   FoldedPixels result;
   for (int row = 0; row < cpu::kBlockSize; ++row) {
     const int first = row * cpu::kBlockSize;
@@ -192,10 +201,9 @@ HWY_INLINE HWY_ATTR FoldedPixels blendRows(const OverBlock& block, To to) {
       if (again) {
         met = meet(from, keys + x, met.count, [](const glm::vec4&) { return true; });
       } else {
-        for (auto& part : state.color) part = hn::Zero(Channels());
-        met = meet(from, keys + x, counts[x], [&state](const glm::vec4& color) HWY_ATTR {
-          if (kMayEnd && state.transmittance == 0.0) return false;
-          blendFragment(state, color);
+        met = meet(from, keys + x, counts[x], [&state, alphaOnly](const glm::vec4& color) HWY_ATTR {
+          if (kMayEnd && state.isOpaque()) return false;
+          blendFragment(state, color, alphaOnly);
           return true;
         });
       }
