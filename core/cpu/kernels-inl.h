@@ -204,36 +204,75 @@ HWY_INLINE HWY_ATTR void forEachBlock(const TriangleSetup& t, const TriangleEdge
   }
 }
 
-// Eight fragments of a row, if its pixels have as many each.
-HWY_INLINE HWY_ATTR bool addRow(const FragmentGrid::Room& room, std::uint32_t place, const std::uint64_t* keys) {
-  std::uint32_t* const counts = room.counts + place;
-  const std::uint32_t layer = counts[0];
-  std::uint32_t differ = 0;
-  for (int k = 1; k < kBlockSize; ++k) differ |= counts[k] ^ layer;
-  if (differ) return false;
-  __builtin_memcpy(room.keys + std::size_t{layer} * room.stride + (place - room.origin), keys, sizeof(std::uint64_t) * kBlockSize);
-  for (int k = 0; k < kBlockSize; ++k) counts[k] = layer + 1;
-  return true;
-}
+// While fragments are added: where the next key of each pixel goes. Counts would cost a fragment a multiplication.
+class NextKeys {
+ public:
+  HWY_ATTR explicit NextKeys(const FragmentGrid::Layout& layout) : layout_(layout) {
+    const D d;
+    for (std::uint32_t i = 0; i < layout.pixels; i += hn::Lanes(d)) {
+      const auto layers = hn::LoadU(d, layout.counts + layout.origin + i);
+      hn::StoreU(hn::Add(hn::Mul(layers, hn::Set(d, layout.stride)), first(i)), d, at_ + layout.origin + i);
+    }
+  }
+  HWY_INLINE void add(std::uint32_t place, std::uint64_t key, std::uint64_t* keys) {
+    const std::uint32_t at = at_[place];
+    keys[at] = key;
+    at_[place] = at + layout_.stride;
+  }
+  // Eight keys of a row, if its pixels have as many each.
+  HWY_INLINE HWY_ATTR bool addRow(std::uint32_t place, const std::uint64_t* row, std::uint64_t* keys) {
+    std::uint32_t* const next = at_ + place;
+    const std::uint32_t at = next[0];
+    std::uint32_t differ = 0;
+    for (std::uint32_t k = 1; k < kBlockSize; ++k) differ |= next[k] ^ (at + k);
+    if (differ) return false;
+    __builtin_memcpy(keys + at, row, sizeof(std::uint64_t) * kBlockSize);
+    for (std::uint32_t k = 0; k < kBlockSize; ++k) next[k] = at + layout_.stride + k;
+    return true;
+  }
+  // The most of a pixel.
+  HWY_ATTR std::uint32_t layers() const {
+    const D d;
+    auto most = hn::Zero(d);
+    for (std::uint32_t i = 0; i < layout_.pixels; i += hn::Lanes(d)) most = hn::Max(most, used(i));
+    return hn::GetLane(hn::MaxOfLanes(d, most)) / layout_.stride;
+  }
+  HWY_ATTR void putCounts() const {
+    const D d;
+    // Of a multiple of an odd number a multiplication modulo 2^32 is the quotient. Newton's iteration doubles the bits that are right, three to begin with.
+    const int shift = __builtin_ctz(layout_.stride);
+    const std::uint32_t odd = layout_.stride >> shift;
+    std::uint32_t inverse = odd;
+    for (int bits = 3; bits < 32; bits *= 2) inverse *= 2 - odd * inverse;
+    for (std::uint32_t i = 0; i < layout_.pixels; i += hn::Lanes(d)) {
+      hn::StoreU(hn::Mul(hn::ShiftRightSame(used(i), shift), hn::Set(d, inverse)), d, layout_.counts + layout_.origin + i);
+    }
+  }
 
-// `closed`: blocks that are passed over.
-HWY_INLINE HWY_ATTR void collectInRoom(const TriangleSetup* triangles, std::size_t count, const TileKeys& keys, const BlockRect& rect, std::uint32_t closed,
-                                       const FragmentGrid::Room& room) {
-  // By value: what is written might otherwise be the room itself.
-  const auto add = [room](std::uint32_t place, std::uint64_t key) HWY_ATTR {
-    const std::uint32_t layer = room.counts[place];
-    room.keys[std::size_t{layer} * room.stride + (place - room.origin)] = key;
-    room.counts[place] = layer + 1;
-  };
-  const auto addOpen = [add, closed](std::uint32_t place, std::uint64_t key) HWY_ATTR {
-    if (!(closed >> (place / kBlockPixels) & 1)) add(place, key);
+ private:
+  using D = hn::CappedTag<std::uint32_t, kBlockSize>;
+
+  // Of the pixels at i: the place of the first key; how far the next one lies from it.
+  static HWY_INLINE HWY_ATTR hn::Vec<D> first(std::uint32_t i) {
+    return hn::Add(hn::Set(D(), i), hn::BitCast(D(), hn::Load(hn::RebindToSigned<D>(), kIotaInt)));   // hn::Iota goes through memory
+  }
+  HWY_INLINE HWY_ATTR hn::Vec<D> used(std::uint32_t i) const { return hn::Sub(hn::LoadU(D(), at_ + layout_.origin + i), first(i)); }
+
+  FragmentGrid::Layout layout_;
+  std::uint32_t at_[kBlocksPerTile * kBlockPixels];   // from the origin on
+};
+
+// kClosed: blocks with a bit in `closed` are passed over.
+template <bool kClosed>
+HWY_ATTR void collectInRoom(std::span<const TriangleSetup> triangles, const TileKeys& keys, const BlockRect& rect, std::uint32_t closed, NextKeys& next,
+                            std::uint64_t* out) {
+  const auto add = [&next, out, closed](std::uint32_t place, std::uint64_t key) HWY_ATTR {
+    if (!kClosed || !(closed >> (place / kBlockPixels) & 1)) next.add(place, key, out);
   };
   const std::uint64_t slotMask = keys.format.slotMask();
-  for (std::size_t i = 0; i < count; ++i) {
-    const TriangleSetup& t = triangles[i];
+  for (const TriangleSetup& t : triangles) {
     if (isBySample(t)) {
-      if (!closed) forEachSample(t, keys, slotMask, add);
-      else forEachSample(t, keys, slotMask, addOpen);
+      forEachSample(t, keys, slotMask, add);
       continue;
     }
     const RowKeys<kBlockSize> ofRow(t, keys, slotMask);
@@ -244,10 +283,10 @@ HWY_INLINE HWY_ATTR void collectInRoom(const TriangleSetup* triangles, std::size
         alignas(64) std::uint64_t found[kBlockSize];
         ofRow.put(x, y + row, found);
         const std::uint32_t place = static_cast<std::uint32_t>(index * kBlockPixels + row * kBlockSize);
-        if (mask == 0xFF && addRow(room, place, found)) continue;
+        if (mask == 0xFF && next.addRow(place, found, out)) continue;
         for (; mask; mask &= mask - 1) {
           const unsigned k = static_cast<unsigned>(__builtin_ctz(mask));
-          add(place + k, found[k]);
+          next.add(place + k, found[k], out);
         }
       }
     });
@@ -255,18 +294,21 @@ HWY_INLINE HWY_ATTR void collectInRoom(const TriangleSetup* triangles, std::size
 }
 
 // A triangle adds one fragment to a pixel at most.
-HWY_ATTR bool CollectFragments(const TriangleSetup* triangles, std::size_t count, const TileKeys& keys, const BlockRect& rect,
-                               std::uint32_t finished, FragmentGrid& grid) {
+HWY_ATTR bool CollectFragments(std::span<const TriangleSetup> triangles, const TileKeys& keys, const BlockRect& rect, std::uint32_t finished,
+                               FragmentGrid& grid) {
   // Bounds of triangles do not reach beyond a tile.
   const std::uint32_t closed = rect.count() == 1 ? ~(1u << (rect.by0 * kBlocksPerSide + rect.bx0)) : finished;
-  while (count > 0) {
-    const FragmentGrid::Room room = grid.room(grid.isEmpty() ? 0 : largestOf(grid.counts()));
-    if (room.left == 0) return false;
-    const std::size_t some = std::min(count, room.left);
-    collectInRoom(triangles, some, keys, rect, closed, room);
-    triangles += some, count -= some;
+  NextKeys next(grid.layout());
+  while (!triangles.empty()) {
+    const FragmentGrid::Room room = grid.room(next.layers());
+    if (room.left == 0) break;
+    const auto some = triangles.first(std::min(triangles.size(), room.left));
+    if (closed) collectInRoom<true>(some, keys, rect, closed, next, room.keys);
+    else collectInRoom<false>(some, keys, rect, closed, next, room.keys);
+    triangles = triangles.subspan(some.size());
   }
-  return true;
+  next.putCounts();
+  return triangles.empty();
 }
 
 HWY_ATTR PixelCounts CountPixels(std::span<const std::uint32_t> counts, std::uint32_t nearest) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
+#include <new>
 #include <numeric>
 
 #include "core/cpu/tile.h"
@@ -26,7 +28,7 @@ HWY_EXPORT(SimdName);
 
 bool collectFragments(std::span<const TriangleSetup> triangles, const TileKeys& keys, const BlockRect& rect, std::uint32_t finished,
                       FragmentGrid& grid) {
-  return HWY_DYNAMIC_DISPATCH(CollectFragments)(triangles.data(), triangles.size(), keys, rect, finished, grid);
+  return HWY_DYNAMIC_DISPATCH(CollectFragments)(triangles, keys, rect, finished, grid);
 }
 
 PixelCounts countPixels(std::span<const std::uint32_t> counts, std::uint32_t nearest) { return HWY_DYNAMIC_DISPATCH(CountPixels)(counts, nearest); }
@@ -60,15 +62,13 @@ void FragmentGrid::begin(const BlockRect& rect) {
   // What a block took beyond the budget is given back.
   if (!isBlock && keys_.size() > budgetBytes_ / sizeof(std::uint64_t) + 1) keys_ = {};
   capacity_ = static_cast<std::uint32_t>(keys_.size() / stride_);
-  isEmpty_ = true;
   std::fill(std::begin(counts_), std::end(counts_), 0u);
 }
 
 FragmentGrid::Room FragmentGrid::room(std::uint32_t used) {
   constexpr std::uint32_t kLeastRoom = 32;   // layers: finding out how many are in use should be rare
-  isEmpty_ = false;
   if (used + kLeastRoom > capacity_ && !grow(used + kLeastRoom)) return {};
-  return {keys_.data(), counts_, stride_, origin_, capacity_ - used};
+  return {keys_.data(), capacity_ - used};
 }
 
 bool FragmentGrid::grow(std::size_t least) {
@@ -76,6 +76,7 @@ bool FragmentGrid::grow(std::size_t least) {
   if (least > most) return false;
   constexpr std::size_t kFirst = 256;   // rarely less than a tile has triangles, and what no pixel reaches is not touched
   const std::size_t layers = std::min(std::max({least, std::size_t{capacity_} * 2, kFirst}), most);
+  if (layers * stride_ > std::numeric_limits<std::uint32_t>::max()) throw std::bad_alloc();   // 32 GB: their places have 32 bits
   // The last pixel's neighbour is read.
   UninitializedVector<std::uint64_t> keys(layers * stride_ + 1);
   std::copy_n(keys_.data(), std::size_t{capacity_} * stride_, keys.data());

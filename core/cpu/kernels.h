@@ -139,27 +139,31 @@ class FragmentGrid {
   }
   std::span<const std::uint32_t> counts() const { return counts_; }   // of all blocks; 0 outside what was begun
 
-  // Where fragments are added until there is no more room: that of the pixel at a place (kernels-inl.h) to keys[counts[place]++ · stride + place - origin].
+  // A pixel's fragments, by its place (placeOf): keys[layer · stride + place - origin], and so many as counts[place]. Places run from `origin` on.
+  struct Layout {
+    std::uint32_t* counts;
+    std::uint32_t stride, origin, pixels;
+  };
+  Layout layout() { return {counts_, stride_, origin_, static_cast<std::uint32_t>(isBlock() ? kBlockPixels : kBlocksPerTile * kBlockPixels)}; }
+
+  // Where fragments are added until there is no more room.
   struct Room {
     std::uint64_t* keys;
-    std::uint32_t* counts;
-    std::uint32_t stride, origin;
     std::size_t left;                        // layers that may be added to every pixel; 0: the budget is spent
   };
   Room room(std::uint32_t used);             // layers in use
-  bool isEmpty() const { return isEmpty_; }
 
  private:
   // Layers of a tile lie so far apart that those of a pixel do not compete for the same lines of a cache.
   static constexpr std::uint32_t kTileStride = kBlocksPerTile * kBlockPixels + 8;
 
+  bool isBlock() const { return stride_ == kBlockPixels; }
   bool grow(std::size_t least);              // to so many layers
 
   UninitializedVector<std::uint64_t> keys_;  // kept from tile to tile
   std::uint32_t counts_[kBlocksPerTile * kBlockPixels] = {};
   std::uint32_t origin_ = 0, stride_ = kTileStride;
   std::uint32_t capacity_ = 0;               // layers
-  bool isEmpty_ = true;                      // no room was given since it was begun
   std::size_t budgetBytes_, limitBytes_ = 0;
 };
 
