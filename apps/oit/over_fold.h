@@ -121,7 +121,7 @@ class OverFold {
   // Whole blocks at once (core/fold/fold.h). Layers and groups are counted pixel by pixel; the z-buffer's are 1.
   FoldedPixels foldBlock(const cpu::FragmentBlock& block, const cpu::Tile& tile, std::uint64_t pixels, int x, int y);
 
-  // The z-buffer's tile, with a fragment a pixel at most.
+  // The z-buffer's tile, with a fragment a pixel at most: no order is in doubt, so blocks are all it takes.
   void takeNearest(cpu::Tile& tile, std::uint64_t* keys);
 
  private:

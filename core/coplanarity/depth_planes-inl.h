@@ -108,16 +108,16 @@ HWY_INLINE HWY_ATTR V dot(const V3& a, const V3& b) { return hn::Add(hn::Add(hn:
 
 // The lowest four bits of a float are worth 15/16 of 2^-19 of it at most, or 15 of the smallest float.
 inline constexpr double kOutward = 1.0 / (1 << 18), kOutwardLeast = 0x1p-140;
+inline constexpr double kMostFloat = 0x1.fffep127;   // no bits of it make an infinity: values are held to it
 
 // A float's bits, the lowest four zero, that whatever they become is not above the value, or not below it.
-HWY_INLINE HWY_ATTR hn::Vec<U32> roundedBelow(V value) {
-  const V outer = hn::Sub(value, hn::Add(hn::Mul(hn::Abs(value), all(kOutward)), all(kOutwardLeast)));
-  return hn::AndNot(hn::Set(U32(), DepthPlane::kErrorMask), hn::BitCast(U32(), hn::DemoteTo(F32(), outer)));
+HWY_INLINE HWY_ATTR hn::Vec<U32> bitsOfFloat(V value) {
+  const V held = hn::Min(hn::Max(value, all(-kMostFloat)), all(kMostFloat));
+  return hn::AndNot(hn::Set(U32(), DepthPlane::kErrorMask), hn::BitCast(U32(), hn::DemoteTo(F32(), held)));
 }
-HWY_INLINE HWY_ATTR hn::Vec<U32> roundedAbove(V value) {
-  const V outer = hn::Add(value, hn::Add(hn::Mul(hn::Abs(value), all(kOutward)), all(kOutwardLeast)));
-  return hn::AndNot(hn::Set(U32(), DepthPlane::kErrorMask), hn::BitCast(U32(), hn::DemoteTo(F32(), outer)));
-}
+HWY_INLINE HWY_ATTR V outward(V value) { return hn::Add(hn::Mul(hn::Abs(value), all(kOutward)), all(kOutwardLeast)); }
+HWY_INLINE HWY_ATTR hn::Vec<U32> roundedBelow(V value) { return bitsOfFloat(hn::Sub(value, outward(value))); }
+HWY_INLINE HWY_ATTR hn::Vec<U32> roundedAbove(V value) { return bitsOfFloat(hn::Add(value, outward(value))); }
 
 // DepthPlane's, of a bound that may be +inf.
 HWY_INLINE HWY_ATTR hn::Vec<U32> exponentOf(V error) {

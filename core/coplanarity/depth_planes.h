@@ -3,8 +3,7 @@
 // The order value s grows with distance along the ray: s = -1/t in perspective (t the distance along the view axis), s = t
 // orthographically; both are affine in the pixel. All fragments of a class at a pixel have the same s to the bit. Every class carries a
 // bound of the error of its s against the true plane (the three vertices of its representative, as doubles), so that an order is
-// certain when two values differ by more than the sum of their bounds. 32 bytes a class: tiles read planes far and wide, and half a line of the cache each
-// is quickly read.
+// certain when two values differ by more than the sum of their bounds. 32 bytes a class, half a line of the cache: tiles read them far and wide.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +22,9 @@ struct DepthPlane {
   static constexpr std::uint32_t kErrorBits = 4, kErrorMask = (1u << kErrorBits) - 1, kUnknown = (1u << 2 * kErrorBits) - 1, kErrorBias = 180;
 
   double a, b, c;   // s = a·u + b·v + c, with u, v of view.h
-  float lo, hi;     // range of the class's faces: beyond a silhouette s is held to it. The lowest four bits of each hold half of the error's exponent
+  // Range of the class's faces, up to 1e38: beyond a silhouette s is held to it. The lowest four bits of each hold half of the error's exponent, and whatever
+  // they are, no face lies beyond.
+  float lo, hi;
 
   // Bound of |s - true s| within the image; +inf where the plane holds the eye.
   double error() const {

@@ -2,7 +2,6 @@
 #include "core/cpu/block_order.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <iterator>
 #include <span>

@@ -1,4 +1,4 @@
-// Triangles of a tile on their way from corners and planes to edge and depth functions, in batches, vectorised across triangles with run-time dispatch.
+// Triangles of a tile on their way from corners and planes to edges, slots and setups, in batches, vectorised across triangles with run-time dispatch.
 //
 // Edges are exact: corners differ by less than 2^24 grid steps, so products stay below 2^48 and sums below 2^51, which a double holds to
 // the last unit, as it does their division by a power of two. Every target therefore gives the same integers. Edges are Pineda's. A parallel

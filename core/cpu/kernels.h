@@ -1,5 +1,5 @@
 // The inner loops of the tile renderer: coverage and depth keys, vectorised with run-time dispatch (Google Highway: AVX-512,
-// AVX2, SSE4, SSSE3, scalar). Every target gives the same bytes: coverage is exact integer arithmetic, and the depth of a lane is the same three
+// AVX2, SSE4, SSSE3, scalar). Every target gives the same bytes: coverage is exact integer arithmetic, and the depth of a lane is the same
 // double operations whatever the width.
 //
 // A fragment is one 64-bit key: depth in the high bits; in the low ones the triangle's slot in the tile, counted from the other end. Read as a positive

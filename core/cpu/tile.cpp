@@ -15,7 +15,7 @@ namespace copeel::cpu {
 namespace {
 
 constexpr std::uint64_t kMostUncertainty = std::uint64_t{1} << 50;   // key units: nothing is certain
-// A sum near 2^52 rounds to whole key units.
+// A sum near 2^52 rounds to whole key units, by half of one; a difference and a product of up to 48 bits before it, by less than 2^-3.
 constexpr double kKeyRounding = 1;
 constexpr double kFinestError = 4;   // key units, of the most certain plane of a tile
 

@@ -170,10 +170,13 @@ HWY_INLINE HWY_ATTR std::uint32_t filledOfRow(const std::uint32_t* counts) {
   return filled;
 }
 
-// Pixels of a row with a slot whose neighbours in depth order may not be adjacent.
+// Pixels of a row with several fragments, one of them so uncertain that its neighbours in depth order may not be adjacent.
 inline std::uint32_t coarseOfRow(const OverBlock& from, int row) {
   std::uint32_t coarse = 0;
-  for (int x = 0; x < cpu::kBlockSize; ++x) coarse |= std::uint32_t{stackOf(from.block, row * cpu::kBlockSize + x, from.tile).hasCoarse()} << x;
+  for (int x = 0; x < cpu::kBlockSize; ++x) {
+    const PixelStack stack = stackOf(from.block, row * cpu::kBlockSize + x, from.tile);
+    coarse |= std::uint32_t{stack.count > 1 && stack.hasCoarse()} << x;
+  }
   return coarse;
 }
 

@@ -45,7 +45,8 @@ struct OverBlock {
   bool mayEnd;               // some colour is opaque: what lies behind it is not met
 };
 
-// Blends the wanted pixels that have fragments, and whose keys tell the order of those that are met.
+// Blends the wanted pixels that have fragments and whose keys tell the order of those that are met: all that have a single one; none with a slot that is
+// coarse (cpu::Tile) among several.
 FoldedPixels blendBlock(const OverBlock& from, BlendedPixel* out);
 
 // The same to an image, whose rows are `rowPixels` long. first: the block's first pixel in it.

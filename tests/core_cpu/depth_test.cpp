@@ -1,4 +1,6 @@
 // Depth values and orders: against closed forms, and where planes are seen edge-on, cross, or lie very near and very far.
+#include <bit>
+#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -60,6 +62,45 @@ TEST(Depth, equalsTheClosedFormFromNearToFar) {
       }
     }
   }
+}
+
+// Whatever bits of the error they carry; scenes of any size, in front of the eye and around it.
+TEST(Depth, rangesHoldTheirFaces) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> at(-1, 1);
+  int unknown = 0;
+  for (int round = 0; round < 400; ++round) {
+    const bool perspective = round % 2;
+    const double scale = std::pow(10.0, round % 59 - 30);
+    Mesh mesh;
+    for (int i = 0; i < 24; ++i) mesh.vertices.push_back(scale * glm::dvec3(at(random), at(random), at(random)));
+    for (std::uint32_t i = 0; i < 24; i += 3) mesh.triangles.push_back({i, i + 1, i + 2});
+    const glm::dvec3 eye = scale * (round % 3 == 0 ? mesh.vertices[0] / scale : glm::dvec3(3 * at(random), 5, 3 * at(random)));
+    const Prepared p({{share(mesh)}}, lookAt(eye, {0, 0, 0}, 33, 33, perspective ? 0.02 : 0.02 * scale, perspective));
+    const double nearest = nearDistance(p.scene, p.view);
+    for (std::uint32_t i = 0; i < 8; ++i) {
+      const DepthPlane& plane = p.frame.depths[p.planeClass(i)];
+      for (int corner = 0; corner < 3; ++corner) {
+        const Real t = glm::dot(Vec(mesh.vertices[mesh.triangles[i][corner]]) - Vec(p.view.eye), Vec(p.view.forward));
+        const Real s = perspective ? -1 / std::max(t, Real(nearest)) : t;
+        EXPECT_LE(Real(plane.lo), s) << "round " << round;
+        EXPECT_GE(Real(plane.hi), s) << "round " << round;
+      }
+      unknown += std::isinf(plane.error());
+      int exponent = 0;
+      if (!std::isinf(plane.error())) { EXPECT_EQ(std::frexp(plane.error(), &exponent), 0.5) << "round " << round; }
+    }
+  }
+  EXPECT_GT(unknown, 0);
+}
+
+TEST(Depth, errorsAreReadBackFromTheBitsTheyAreKeptIn) {
+  const auto planeOf = [](std::uint32_t exponent) {
+    const auto withBits = [](float value, std::uint32_t bits) { return std::bit_cast<float>((std::bit_cast<std::uint32_t>(value) & ~15u) | bits); };
+    return DepthPlane{0, 0, 0, withBits(-1, exponent >> 4), withBits(1, exponent & 15)};
+  };
+  for (std::uint32_t exponent = 0; exponent < 255; ++exponent) EXPECT_EQ(planeOf(exponent).error(), std::ldexp(1.0, static_cast<int>(exponent) - 180));
+  EXPECT_TRUE(std::isinf(planeOf(255).error()));
 }
 
 TEST(Depth, errorBoundsHold) {

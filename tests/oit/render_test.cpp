@@ -196,6 +196,23 @@ TEST(Oit, theZBufferShowsTheLaterOfCoplanarParts) {
   EXPECT_EQ(frame.ids.at(10, 10), 2);
 }
 
+// Depths of such faces are so uncertain that keys tell no order, but of one fragment there is none to tell.
+TEST(Oit, theZBufferShowsFacesSeenEdgeOnToo) {
+  const std::vector<oit::Part> plate{part(box({0, 0, 0}, {1, 1e4, 1}), glm::vec4(200, 100, 50, 1))};
+  for (const bool perspective : {false, true}) {
+    for (const double above : {5e-4, 1e-9, 0.0}) {
+      const View view = lookAt({0.5, -5, 1 + above}, {0.5, 0, 1}, 64, 48, perspective ? 0.01 : 0.04, perspective);
+      const oit::Frame tile = drawParts(plate, view, unlit()).frame;
+      oit::RenderOptions options = unlit();
+      options.method = findMethod("zbuffer");
+      const oit::Frame nearest = drawParts(plate, view, options).frame;
+      EXPECT_EQ(nearest.color.pixels, tile.color.pixels) << perspective << ", " << above;
+      EXPECT_EQ(nearest.ids.pixels, tile.ids.pixels) << perspective << ", " << above;
+      EXPECT_GT(std::count(tile.ids.pixels.begin(), tile.ids.pixels.end(), 1), 200) << perspective << ", " << above;
+    }
+  }
+}
+
 oit::RenderOptions kBuffer(std::string_view method, std::uint32_t k) {
   oit::RenderOptions options = unlit();
   options.method = findMethod(method, "cpu");
