@@ -172,16 +172,6 @@ inline void sortColumn(std::uint64_t* keys, std::uint32_t count, std::size_t str
   for (std::uint32_t i = 0; i < count; ++i) keys[i * stride] = column[i];
 }
 
-// Where a pixel has fewer fragments.
-HWY_INLINE HWY_ATTR std::uint32_t lanesBelow(const std::uint32_t* counts, std::uint32_t n) {
-  const hn::CappedTag<std::uint32_t, kBlockSize> d;
-  std::uint32_t mask = 0;
-  for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(d)) {
-    mask |= bitsOf(d, hn::Lt(hn::LoadU(d, counts + lane), hn::Set(d, n))) << lane;
-  }
-  return mask;
-}
-
 HWY_ATTR void SortBlock(const FragmentBlock& block) {
   for (int row = 0; row < kBlockSize; ++row) {
     const std::uint32_t* counts = block.counts + row * kBlockSize;

@@ -36,6 +36,16 @@ HWY_INLINE HWY_ATTR std::uint32_t largestOf(std::span<const std::uint32_t> count
   return hn::GetLane(hn::MaxOfLanes(d, largest));
 }
 
+// Of a row of a block: pixels that have fewer fragments.
+HWY_INLINE HWY_ATTR std::uint32_t lanesBelow(const std::uint32_t* counts, std::uint32_t n) {
+  const hn::CappedTag<std::uint32_t, kBlockSize> d;
+  std::uint32_t mask = 0;
+  for (std::size_t lane = 0; lane < kBlockSize; lane += hn::Lanes(d)) {
+    mask |= bitsOf(d, hn::Lt(hn::LoadU(d, counts + lane), hn::Set(d, n))) << lane;
+  }
+  return mask;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace copeel::cpu
 HWY_AFTER_NAMESPACE();

@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Red, green, blue and what the fourth lane makes of alpha, in one vector or two.
+// Red, green, blue and what the fourth lane makes of alpha, in one vector or more.
 using Channels = hn::CappedTag<double, 4>;
 using Floats = hn::Rebind<float, Channels>;
 using Ints = hn::Rebind<std::int32_t, Channels>;
@@ -160,16 +160,6 @@ HWY_INLINE HWY_ATTR std::uint32_t repeatsOfRow(const Source& from, const std::ui
   return repeats;
 }
 
-// Pixels of a row that have fragments.
-HWY_INLINE HWY_ATTR std::uint32_t filledOfRow(const std::uint32_t* counts) {
-  const hn::CappedTag<std::uint32_t, cpu::kBlockSize> d;
-  std::uint32_t filled = 0;
-  for (std::size_t lane = 0; lane < cpu::kBlockSize; lane += hn::Lanes(d)) {
-    filled |= cpu::HWY_NAMESPACE::bitsOf(d, hn::Ne(hn::LoadU(d, counts + lane), hn::Zero(d))) << lane;
-  }
-  return filled;
-}
-
 // Pixels of a row with several fragments, one of them so uncertain that its neighbours in depth order may not be adjacent.
 inline std::uint32_t coarseOfRow(const OverBlock& from, int row) {
   std::uint32_t coarse = 0;
@@ -191,7 +181,7 @@ HWY_INLINE HWY_ATTR FoldedPixels blendRows(const OverBlock& block, To to) {
     const int first = row * cpu::kBlockSize;
     const std::uint64_t* const keys = block.block.keys + first;
     const std::uint32_t* const counts = block.block.counts + first;
-    std::uint32_t folded = filledOfRow(counts) & static_cast<std::uint32_t>(block.pixels >> first), coplanar = 0;
+    std::uint32_t folded = 0xFFu & ~cpu::HWY_NAMESPACE::lanesBelow(counts, 1) & static_cast<std::uint32_t>(block.pixels >> first), coplanar = 0;
     if (block.tile.coarse) folded &= ~coarseOfRow(block, row);
     if (!folded) continue;   // the row may lie below the image
     const auto out = to(row);
