@@ -154,11 +154,12 @@ HWY_INLINE HWY_ATTR void sortLayers(std::uint64_t* layers, std::uint32_t n, std:
 // 2,000 layers 1.5 times, 32,000 layers 2.3 times).
 constexpr std::uint32_t kMostNetworkLayers = 1024;
 
-// Layers of a row may lie 512 bytes apart, so that of 64 lines on the way only some places of the cache are theirs: more layers are sorted side by side.
-constexpr std::uint32_t kMostLayersInPlace = 32;
+// More layers are sorted side by side: those of a block's own grid lie 512 bytes apart, so that of 64 lines on the way only some places of the cache are
+// theirs, and each of a tile's grid lies in another page.
+constexpr std::uint32_t mostLayersInPlace(std::size_t stride) { return stride == kBlockPixels ? 32 : 64; }
 
 HWY_ATTR void sortRow(std::uint64_t* keys, std::uint32_t n, std::size_t stride) {
-  if (n <= kMostLayersInPlace) return sortLayers(keys, n, stride);
+  if (n <= mostLayersInPlace(stride)) return sortLayers(keys, n, stride);
   alignas(64) std::uint64_t row[kMostNetworkLayers * kBlockSize];
   for (std::uint32_t i = 0; i < n; ++i) __builtin_memcpy(row + i * kBlockSize, keys + i * stride, sizeof(std::uint64_t) * kBlockSize);
   sortLayers(row, n, kBlockSize);
