@@ -69,7 +69,7 @@ void addSizes(CLI::App& command, Options& options) {
   command.add_option("--sizes", options.sizes, "pixels (256,192); several for time over resolution, pictures are of the first")->type_name("W,H");
   command.add_option("--copies", options.copies, "coincident copies of the scenes that have them (4)")->check(CLI::Range(1, 1000))->type_name("N");
   command.add_option("--k", options.k, "buffer length of the methods that have one (8)")->check(CLI::Range(1, 1024))->type_name("N");
-  command.add_option("--frames", options.frames, "timed frames of each method (3); in the speed part the cpu's have a time instead")->check(CLI::Range(1, 100000))->type_name("N");
+  command.add_option("--frames", options.frames, "timed frames of each method (3); in the speed part of VTK alone, as ours have a time")->check(CLI::Range(1, 100000))->type_name("N");
   command.add_option("--threads", options.threads, "of the cpu back end (all cores)")->check(CLI::Range(1, 1024))->type_name("N");
   command.add_option("--seconds", options.seconds, "that the parts may take together, about (160): what would take longer is left out, and named")
       ->check(CLI::Range(1.0, 1e6))->type_name("N");

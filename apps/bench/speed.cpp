@@ -9,7 +9,8 @@ namespace copeel::bench {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 720, kThreads = 2;
-// Frames of milliseconds, which end together, have about as much time as a peer's: the least of a tenth of a second tells what else the machine did then.
+// Frames, those of the cpu's two methods together, have about as much time as a peer's: the least of a tenth of a second tells what else the machine did
+// then.
 constexpr int kFrames = 10000;
 constexpr double kTwoMethodsMs = 1.6 * kEnoughMs;
 constexpr std::uint32_t kBufferLength = 8;
@@ -24,7 +25,6 @@ std::vector<Entry> measureOne(const BenchScene& scene, const SpeedOptions& optio
   measure.budgetMs = kTwoMethodsMs;
   measure.methods = runsThatAre({"tile", "zbuffer"}, options.backend == "gl" ? "none" : "cpu", kBufferLength);
   std::vector<Entry> entries = timeScene(scene, kWidth, kHeight, measure);
-  measure.frames = options.frames;
   measure.budgetMs = budgetMs;
   measure.methods = runsThatAre({"auto", "fab", "ll", "sb", "bun-ll", kPlainList}, options.backend == "cpu" ? "none" : "gl", kBufferLength);
   for (Entry& entry : timeScene(scene, kWidth, kHeight, measure)) entries.push_back(std::move(entry));
