@@ -71,6 +71,8 @@ struct KeyFormat {
   int depthBits = 40;               // slot bits are the rest of kKeyBits
   std::uint64_t uncertainty = 0;    // bound of the error of a depth, key units, of every slot that is not coarse (tile.h)
   int slotBits() const { return kKeyBits - depthBits; }
+  // Keys so far from each other, or farther, have depths that are certainly apart.
+  std::uint64_t reach() const { return (2 * uncertainty + 2) << slotBits(); }
   std::uint64_t depthOf(std::uint64_t key) const { return key >> slotBits(); }
   std::uint64_t slotMask() const { return (std::uint64_t{1} << slotBits()) - 1; }
   std::uint32_t slotOf(std::uint64_t key) const { return static_cast<std::uint32_t>(~key & slotMask()); }
@@ -79,7 +81,7 @@ struct KeyFormat {
 
 inline constexpr double kBias = 4503599627370496.0;   // 2^52: beyond it a double counts whole numbers
 
-// What makes keys of the triangles of a tile.
+// What setups of a tile are told from: edges, and what makes keys of them.
 struct TileKeys {
   KeyFormat format;
   const DepthPlane* planes = nullptr;     // by plane class

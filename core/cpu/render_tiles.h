@@ -140,7 +140,7 @@ class TileRenderer {
     narrows_ = false;
     const BlockRect rect = wholeTile();
     if (tile_.coarse || fold_.needsWholeStack()) return drawRect(rect);
-    const KeyDoubt doubt{(2 * tile_.keys.format.uncertainty + 2) << tile_.keys.format.slotBits(), tile_.slots.data()};
+    const KeyDoubt doubt{tile_.keys.format.reach(), tile_.slots.data()};
     nearest_.clear();
     // Met nearest first, most fragments turn back at once; of small triangles the order costs more than it saves.
     const double layers = tile_.layers();

@@ -151,7 +151,7 @@ void Tile::setUpBatch(const Frame& frame, int count) {
   }
   for (std::uint32_t left = edges_.withEdges; left; left &= left - 1, ++withEdgesAt) {
     const int i = std::countr_zero(left);
-    edgeRoom_[withEdgesAt] = edgesOf(i);
+    edgeRoom_[withEdgesAt] = edgesOfBatch(i);
     withEdges_[withEdgesAt] = edges_.setups[i];
     withEdges_[withEdgesAt].cover |= static_cast<std::uint32_t>(withEdgesAt);
   }
@@ -160,7 +160,7 @@ void Tile::setUpBatch(const Frame& frame, int count) {
 }
 
 // Of the triangle at a place of the batch.
-inline TriangleEdges Tile::edgesOf(int i) const {
+inline TriangleEdges Tile::edgesOfBatch(int i) const {
   TriangleEdges edges;
   for (int k = 0; k < 3; ++k) edges.a[k] = edges_.a[k][i], edges.b[k] = edges_.b[k][i], edges.c[k] = edges_.c[k][i];
   edges.samples = edges_.samples[i];

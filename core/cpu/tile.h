@@ -73,7 +73,7 @@ class Tile {
   Source sourceOf(const Frame& frame, std::uint32_t index) const;
   void gather(const Frame& frame, Source source, std::span<const std::uint32_t> references, int at);
   void setUpBatch(const Frame& frame, int count);
-  TriangleEdges edgesOf(int i) const;
+  TriangleEdges edgesOfBatch(int i) const;
   DepthRange rangeOf(const TriangleSetup& t) const;   // of order values, without the error
   void drop(double farthest);
   void scaleDepths(bool decideAllExactly);

@@ -103,12 +103,12 @@ struct Source {
   const cpu::TileSlot* slots;
   cpu::KeyFormat format;
   std::uint64_t slotMask;
-  std::uint64_t reach;      // keys so far from each other, or farther, have depths that are certainly apart
+  std::uint64_t reach;      // KeyFormat's
   std::size_t stride;
 
   HWY_INLINE HWY_ATTR explicit Source(const OverBlock& from)
       : colors(from.colors), slots(from.tile.slots.data()), format(from.tile.keys.format), slotMask(format.slotMask()),
-        reach((2 * format.uncertainty + 1) << format.slotBits()), stride(from.block.stride) {}
+        reach(format.reach()), stride(from.block.stride) {}
   std::size_t slotOf(std::uint64_t key) const { return ~key & slotMask; }
   // Of two keys that are not of one plane class.
   bool areApart(std::uint64_t nearer, std::uint64_t farther) const { return format.depthOf(farther) - format.depthOf(nearer) > 2 * format.uncertainty; }
