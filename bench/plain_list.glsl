@@ -52,7 +52,7 @@ void insertionSort(uint count) {
   }
 }
 
-// The words of core/gl/fold_over.glsl, straight from the pixel's own variables.
+// Straight from the pixel's own variables.
 void main() {
   uint count = copyList();
   insertionSort(count);
@@ -67,15 +67,7 @@ void main() {
     group = i > 0u && keys[i] == keys[i - 1u] ? group + 1u : 1u;
     largest = max(largest, group);
   }
-  uint at = pixelIndex() * OVER_RESULT_WORDS;
-  for (uint i = 0u; i < 4u; ++i) {
-    uvec2 bits = unpackDouble2x32(i < 3u ? state.color[i] : state.transmittance);
-    foldResults[at + 2u * i] = bits.x;
-    foldResults[at + 2u * i + 1u] = bits.y;
-  }
-  foldResults[at + 8u] = nearest;
-  foldResults[at + 9u] = count;
-  foldResults[at + 10u] = largest;
+  overWrite(state, nearest, count, largest);
 }
 
 #endif

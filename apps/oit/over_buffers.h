@@ -9,7 +9,7 @@ namespace copeel::oit {
 
 // Words of a pixel's result: colour (three doubles, premultiplied), transmittance (a double), id + 1 of the nearest primitive that is seen, fragments,
 // fragments of the largest group.
-inline constexpr std::uint32_t kOverResultWords = 11;
+inline constexpr std::uint32_t kOverResultWords = 12;
 
 class OverBuffers {
  public:

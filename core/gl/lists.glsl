@@ -1,8 +1,8 @@
 // Linked lists of fragments, LISTS of them a pixel one behind the other in depth, each with a node memory of its own: gathered by gatherIntoList(), resolved by the
 // passes that drawLists() draws (core/methods/lists.h).
 //
-// Pixels of few fragments are sorted in registers. The others wait for passes that each merge one level, as drivers end shaders that loop for
-// too long (sort_array.glsl); a level of LIST_MOST nodes takes 3 turns a node.
+// Pixels of few fragments are sorted in the invocation (sort_short.glsl). The others wait, for a pass that has room for more, then for passes that each merge
+// one level, as drivers end shaders that loop for too long (sort_array.glsl); a level of LIST_MOST nodes takes 3 turns a node.
 #define LIST_MOST 20000u
 #define LIST_LONG 0x80000000u    // of the first head of a pixel that was put off
 
@@ -18,7 +18,8 @@ layout(std430, binding = COPEEL_BUFFER_METHOD + 3) coherent buffer Longest { uin
 #error a pixel has at most five lists
 #endif
 
-uint headOf(uint list) { return pixelIndex() * uint(LISTS) + list; }
+// The heads of one list lie together: surfaces are in few buckets, and the others' stay out of the caches.
+uint headOf(uint list) { return list * uint(size.x * size.y) + pixelIndex(); }
 
 #if defined(PASS_GATHER)
 
@@ -53,7 +54,12 @@ uint lengthOf(uint list) {
 // in lock step then wait for the longest pixel, not for the longest list of each bucket. Of at most five lists the later ones are a vector, from which empty ones
 // are taken first: llvmpipe keeps an array in memory, and the walk took four times as long.
 void main() {
-  uint node = texelFetch(headTexels, int(headOf(0u))).r, count = 0u;
+  uint node = texelFetch(headTexels, int(headOf(0u))).r;
+#ifdef PUT_OFF_BEFORE
+  if ((node & LIST_LONG) == 0u) discard;
+  node &= ~LIST_LONG;
+  heads[headOf(0u)] = node;
+#endif
   uvec4 later = uvec4(0u);
   for (uint list = 1u; list < uint(LISTS); ++list) later[list - 1u] = texelFetch(headTexels, int(headOf(list))).r;
   if (later.z == 0u) later = uvec4(later.xyw, 0u);
@@ -61,10 +67,10 @@ void main() {
   if (later.x == 0u) later = uvec4(later.yzw, 0u);
   if (node == 0u) node = later.x, later = uvec4(later.yzw, 0u);
   if (node == 0u) foldSkip();
-  while (node != 0u && count < uint(SORT_SHORT)) {
+  beginShort();
+  while (node != 0u && shortCount < uint(SORT_SHORT)) {
     uvec4 words = texelFetch(nodeTexels, int(node - 1u));
-    sortedKeys[count] = words.y, sortedIds[count] = words.z;
-    ++count;
+    putShort(words.yz);
     node = words.x;
     if (node == 0u) node = later.x, later = uvec4(later.yzw, 0u);
   }
@@ -75,9 +81,8 @@ void main() {
     heads[headOf(0u)] |= LIST_LONG;
     return;
   }
-  sortShort(count);
   foldOpen();
-  deliverShort(count);
+  deliverShort();
   foldShut();
 }
 

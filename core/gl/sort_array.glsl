@@ -1,8 +1,8 @@
 // Sorts the contiguous fragments of a pixel and delivers them: for the methods that gather into arrays. The file that includes this defines ARRAY, an
 // array of records uvec2 {key, id}, and calls deliverArray() for every pixel in the passes RESOLVE, BEGIN, HEAP, POP and FINISH that deliverArrays() draws
-// (core/methods/arrays.h).
+// (core/methods/arrays.h), which defines SORT_SHORT.
 //
-// Short arrays are sorted in registers. Longer ones become heaps where they lie, in rounds of ARRAY_ROUND steps: drivers end shaders that loop for too long
+// Short arrays are sorted in the invocation. Longer ones become heaps where they lie, in rounds of ARRAY_ROUND steps: drivers end shaders that loop for too long
 // (llvmpipe silently, after 65,536 turns of all loops together), so no pixel may ask for more in one pass. A step is a sift of at most 31 turns, which
 // leaves half of the turns to the fold.
 #include "core/gl/sort_short.glsl"
@@ -28,13 +28,10 @@ void deliverArray(uint first, uint count) {
     return;
   }
   // Later primitives come last and lie in front of their coplanar ones, so the array is read from its end.
-  for (uint i = 0u; i < count; ++i) {
-    uvec4 fragment = texelFetch(arrayTexels, int(ARRAY_PLACE(first, count - 1u - i)));
-    sortedKeys[i] = fragment.x, sortedIds[i] = fragment.y;
-  }
-  sortShort(count);
+  beginShort();
+  for (uint i = count; i > 0u; --i) putShort(texelFetch(arrayTexels, int(ARRAY_PLACE(first, i - 1u))).xy);
   foldOpen();
-  deliverShort(count);
+  deliverShort();
   foldShut();
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "core/gl/layout.h"
 
 namespace copeel {
@@ -11,10 +13,13 @@ constexpr std::uint32_t kRound = 1024;   // ARRAY_ROUND of sort_array.glsl
 
 }  // namespace
 
+gl::Defines shortDefine(std::size_t most) { return {{"SORT_SHORT", fmt::format("{}", most <= kFewFragments ? kFewFragments : kShortArray)}}; }
+
 void deliverArrays(gl::Frame& frame, const std::string& file, const gl::Buffer& fragments, std::size_t most,
                    const Uniforms& uniforms, const gl::Defines& defines) {
   const auto program = [&](const char* pass, const gl::Defines& more) -> const gl::Program& {
-    gl::Defines all = defines;
+    gl::Defines all = shortDefine(most);
+    all.insert(all.end(), defines.begin(), defines.end());
     all.insert(all.end(), more.begin(), more.end());
     const gl::Program& found = frame.pixelProgram(file, pass, all);
     for (const auto& [name, value] : uniforms) found.set(name, value);

@@ -13,15 +13,30 @@ namespace {
 constexpr std::size_t kNodeBytes = 12;
 constexpr std::size_t kFirstNodesPerPixel = 4;
 constexpr std::size_t kCounterWords = 16;       // from one counter to the next: a cache line
+constexpr std::size_t kDeepPerPixel = 16;       // fragments: with so many, most pixels that have any have more than few
 constexpr std::uint32_t kMost = 20'000;         // LIST_MOST
 
-void deliverLists(gl::Frame& frame, const char* file, const gl::Defines& defines) {
+// Delivers pixels of few fragments, then, where there are some, those of up to kShortArray. Returns the fragments of the deepest that is left, 0: none is.
+std::uint32_t deliverShortLists(gl::Frame& frame, const char* file, const gl::Defines& deliver, bool deep) {
   const gl::Buffer& putOff = frame.buffer("longest", 3, 4);
-  putOff.clear(0);
+  gl::Defines defines = deliver;
+  for (const std::uint32_t most : {kFewFragments, kShortArray}) {
+    if (deep && most == kFewFragments) continue;
+    putOff.clear(0);
+    gl::Defines all = shortDefine(most);
+    all.insert(all.end(), defines.begin(), defines.end());
+    frame.drawPixels(frame.pixelProgram(file, "RESOLVE", all));
+    const std::uint32_t longest = putOff.read<std::uint32_t>(1)[0];
+    if (longest == 0 || most == kShortArray) return longest;
+    defines.emplace_back("PUT_OFF_BEFORE", "1");
+  }
+  return 0;
+}
+
+void deliverLists(gl::Frame& frame, const char* file, const gl::Defines& defines, bool deep) {
   gl::Defines deliver = frame.wholeDefines();
   deliver.insert(deliver.end(), defines.begin(), defines.end());
-  frame.drawPixels(frame.pixelProgram(file, "RESOLVE", deliver));
-  const std::uint32_t longest = putOff.read<std::uint32_t>(1)[0];
+  const std::uint32_t longest = deliverShortLists(frame, file, deliver, deep);
   if (longest == 0) return;
   if (longest > kMost) failMachine("gl: more than {} fragments in a pixel are too many for linked lists", kMost);
   const gl::Program& merge = frame.pixelProgram(file, "MERGE", defines);
@@ -47,6 +62,7 @@ MethodCounts drawLists(gl::Frame& frame, const MethodOptions& options, const cha
   const std::size_t start = (frame.pixelCount() * kFirstNodesPerPixel + lists - 1) / lists;
   std::size_t capacity = std::min(std::max(frame.keptBytes("nodes") / placeBytes, start), most);
   MethodCounts counts{.iterations = 1};
+  std::size_t fragments = 0;
   for (;; ++counts.repeats) {
     frame.buffer("nodes", 1, capacity * placeBytes);
     heads.clear(0);
@@ -55,10 +71,12 @@ MethodCounts drawLists(gl::Frame& frame, const MethodOptions& options, const cha
     frame.drawGeometry(gather);
     const std::vector<std::uint32_t> words = counters.read<std::uint32_t>(lists * kCounterWords);
     std::size_t wanted = 0;
+    fragments = 0;
     counts.overflow = 0;
     for (std::size_t list = 0; list < lists; ++list) {
       const std::size_t nodes = words[list * kCounterWords];
       wanted = std::max(wanted, nodes);
+      fragments += nodes;
       counts.overflow += nodes > capacity ? nodes - capacity : 0;
     }
     if (counts.overflow == 0 || capacity >= most) break;
@@ -67,7 +85,7 @@ MethodCounts drawLists(gl::Frame& frame, const MethodOptions& options, const cha
   if (counts.overflow > 0 && options.allOrNothing) return counts;
   frame.texels(heads, COPEEL_TEXTURE_METHOD, GL_R32UI);
   frame.texels(frame.buffer("nodes", 1, capacity * placeBytes), COPEEL_TEXTURE_METHOD + 1, GL_RGB32UI);
-  deliverLists(frame, file, defines);
+  deliverLists(frame, file, defines, fragments >= kDeepPerPixel * frame.pixelCount());
   return counts;
 }
 

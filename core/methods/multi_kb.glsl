@@ -27,32 +27,25 @@ void main() {
 
 #else
 
+#define SORT_SHORT (K > 8 ? K : 8)
+#define SORT_DISTINCT   // two fragments of one depth, written at once, are a hazard that the equality test could not see
 #include "core/gl/sort_short.glsl"
 
 void main() {
-  uint pixel = pixelIndex(), first = pixel * uint(K), count = 0u;
+  uint pixel = pixelIndex(), first = pixel * uint(K), farthest = 0u;
   if (peeled[pixel] == COPEEL_KEY_DONE) return;
+  beginShort();
   for (uint i = 0u; i < uint(K); ++i) {
     uvec2 fragment = buckets[first + i];
     if (fragment.x == COPEEL_KEY_NONE) continue;
-    sortedKeys[count] = fragment.x, sortedIds[count] = fragment.y;
+    putShort(fragment);
+    farthest = max(farthest, fragment.x);
     buckets[first + i] = uvec2(COPEEL_KEY_NONE);
-    ++count;
   }
-  sortShort(count);
-  bool enough = count < uint(K);
   foldLoad(COPEEL_FRONT);
-  for (uint i = 0u; i < count; ++i) {
-    // Two fragments of one depth, written at once, are a hazard that the equality test could not see.
-    if (i > 0u && sortedKeys[i] == sortedKeys[i - 1u]) continue;
-    foldFront(sortedIds[i]);
-    if (foldCloseGroup(sortedKeys[i])) {
-      enough = true;
-      break;
-    }
-  }
+  bool enough = deliverShort() || shortCount < uint(K);
   foldStore(COPEEL_FRONT);
-  peeled[pixel] = enough ? COPEEL_KEY_DONE : sortedKeys[count - 1u];
+  peeled[pixel] = enough ? COPEEL_KEY_DONE : farthest;
 }
 
 #endif
