@@ -1,4 +1,8 @@
 // The methods that gather into buffers: robust ones deliver the stacks of `ll` to the bit, approximate ones exactly what they promise of them.
+#include <functional>
+#include <map>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -139,6 +143,33 @@ TEST(GlBuffers, tenThousandFragmentsInAPixel) {
         // The highest is nearest: square number 4999 - i counted upwards.
         ASSERT_EQ(pixel[i][0].primitive / 2 * 7 % 5000, 4999 - i) << method;
         ASSERT_EQ(pixel[i][1].primitive / 2, pixel[i][0].primitive / 2 + 5000) << method;
+      }
+    }
+  }
+}
+
+// Pixels of 1 to 140 fragments side by side: some fit registers, some a small array, some a large one, some none, in one picture. In the low view most pixels that
+// have any have many, and lists are not tried with the small array first.
+TEST(GlBuffers, stacksOfAllHeightsSideBySide) {
+  const Scene scene({{share(stairs()), glm::dmat4(1.0)}});
+  const PlaneClasses planes(scene, 0);
+  gl::Renderer renderer(scene, planes);
+  for (const int rows : {24, 2}) {
+    for (const char* method : kRobust) {
+      SCOPED_TRACE(fmt::format("{}, {} rows", method, rows));
+      const GlStacks stacks = glStacksOf(renderer, above(kStairs, rows, 1), findMethod(method, "gl")->draw, {}, kStairs);
+      ASSERT_EQ(stacks.delivered, 2u * kStairs * (kStairs + 1) / 2);
+      for (int x = 0; x < kStairs; ++x) {
+        std::map<double, std::vector<std::uint32_t>, std::greater<>> expected;   // nearest first
+        for (int i = 0; i <= x; ++i) expected[heightOfSheet(i)].push_back(static_cast<std::uint32_t>(i));
+        const Pixel& pixel = stacks.stacks.pixels[static_cast<std::size_t>(rows / 2 * kStairs + x)];
+        ASSERT_EQ(pixel.size(), expected.size()) << x;
+        auto group = pixel.begin();
+        for (const auto& [height, sheets] : expected) {
+          std::vector<std::uint32_t> found;
+          for (const Crossing& crossing : *group++) found.push_back(crossing.primitive / 2);
+          ASSERT_EQ(found, sheets) << "pixel " << x << ", height " << height;
+        }
       }
     }
   }

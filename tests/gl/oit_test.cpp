@@ -1,8 +1,10 @@
 // Transparency through the gl back end: robust methods give the same picture to the byte, and the cpu's off edges.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "apps/oit/render_oit.h"
 #include "core/methods/method.h"
+#include "tests/support/gl_scenes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/views.h"
 
@@ -103,6 +105,30 @@ TEST(GlOit, equalsTheTileMethodOffEdges) {
 }
 
 // One name on both back ends is one picture, off edges.
+// See GlBuffers.stacksOfAllHeightsSideBySide; here without states, and what a pixel of a second pass gives is kept.
+TEST(GlOit, stacksOfAllHeightsEqualTheTileMethod) {
+  const std::vector<oit::Part> parts = {{share(stairs()), {200, 120, 40, 0.03}, {}, glm::dmat4(1.0)}};
+  for (const int rows : {24, 2}) {
+    const View view = above(kStairs, rows, 1);
+    oit::RenderOptions options;
+    options.wantIds = options.wantLayers = options.wantCoplanar = true;
+    options.method = findMethod("tile", "cpu");
+    const oit::Frame expected = oit::Renderer(parts, options).draw(view);
+    ASSERT_EQ(expected.layers.at(kStairs - 1, rows / 2), kStairs);
+    for (const char* method : {"ll", "bun-ll", "fab", "sb", "multi-kb"}) {
+      SCOPED_TRACE(fmt::format("{}, {} rows", method, rows));
+      options.method = findMethod(method, "gl");
+      const oit::Frame frame = oit::Renderer(parts, options).draw(view);
+      if (findMethod(method, "gl")->robust) {
+        EXPECT_EQ(frame.color.pixels, expected.color.pixels);
+        EXPECT_EQ(frame.layers.pixels, expected.layers.pixels);
+        EXPECT_EQ(frame.coplanar.pixels, expected.coplanar.pixels);
+      }
+      EXPECT_EQ(frame.ids.pixels, expected.ids.pixels);
+    }
+  }
+}
+
 TEST(GlOit, kBuffersOfBothBackEndsKeepTheSame) {
   const oit::Frame cpu = drawnWith("k-plus", 0, "cpu"), before = drawnWith("k-plus", -1.0 / 128, "cpu"), after = drawnWith("k-plus", 1.0 / 128, "cpu");
   const oit::Frame gl = drawnWith("k-plus", 0, "gl"), whole = drawnWith("tile");

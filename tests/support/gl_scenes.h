@@ -63,6 +63,23 @@ inline Scene sheetThroughTheEye() {
 
 inline View above(int width, int height, double pixel = 0.03) { return lookAt({0.5, 0.5, 20}, {0.5, 0.5, 0}, width, height, pixel, false); }
 
+// Sheets that each begin a pixel further right, for above(kStairs, rows, 1): pixel x of its two middle rows has x + 1 fragments, up to three of one depth. Sheet i
+// is of primitives 2 i and 2 i + 1, and lies at heightOfSheet(i).
+constexpr int kStairs = 140;
+inline double heightOfSheet(int i) { return 0.01 * (i * 7 % 50); }
+
+inline Mesh stairs() {
+  Mesh all;
+  for (int i = 0; i < kStairs; ++i) {
+    const double x = 0.5 + i - kStairs / 2, z = heightOfSheet(i);
+    const int first = 4 * i;
+    for (const glm::dvec3 corner : {glm::dvec3(x, -0.4, z), glm::dvec3(kStairs, -0.4, z), glm::dvec3(kStairs, 1.4, z), glm::dvec3(x, 1.4, z)}) all.vertices.push_back(corner);
+    all.triangles.emplace_back(first, first + 1, first + 2);
+    all.triangles.emplace_back(first, first + 2, first + 3);
+  }
+  return all;
+}
+
 inline std::vector<GlScene> glScenes() {
   const MeshPointer ball = share(sphere(1, 17, 9)), cube = share(box({-0.7, -0.7, -0.7}, {0.7, 0.7, 0.7}));
   const glm::dmat4 here(1.0);
