@@ -8,7 +8,7 @@
 namespace copeel::oit {
 
 // Words of a pixel's result: colour (three doubles, premultiplied), transmittance (a double), id + 1 of the nearest primitive that is seen, fragments,
-// fragments of the largest group.
+// fragments of the largest group, and one that is 0: whole texels, which llvmpipe writes in the time of half as many words.
 inline constexpr std::uint32_t kOverResultWords = 12;
 
 class OverBuffers {

@@ -16,7 +16,10 @@
 //
 // A front side may be given all its groups in one invocation (A-buffers) or over many passes. A group is never split between the sides.
 layout(std430, binding = COPEEL_BUFFER_FOLD_STATE) buffer FoldStates { uint foldStates[]; };
-layout(std430, binding = COPEEL_BUFFER_FOLD_RESULT) writeonly buffer FoldResults { uint foldResults[]; };
+#ifndef FOLD_RESULT
+#define FOLD_RESULT uint   // what a pixel's result is an array of
+#endif
+layout(std430, binding = COPEEL_BUFFER_FOLD_RESULT) writeonly buffer FoldResults { FOLD_RESULT foldResults[]; };
 
 // Where the state of a side starts, words per side given.
 uint foldStateAt(uint side, uint words) { return (pixelIndex() * 2u + side) * words; }

@@ -1,7 +1,7 @@
 // Transparency on the device: core/fold/over.glsl behind the interface of core/gl/fold.glsl. Within a group the later primitive lies in front.
 //
 // Result words: colour (three doubles, premultiplied), transmittance (a double), id + 1 of the nearest primitive that is seen (0: none), fragments,
-// fragments of the largest group, 0. Where there are none, the colour may be anything. The background comes later.
+// fragments of the largest group, 0: three texels (the define FOLD_RESULT is uvec4). Where there are none, the colour may be anything. The background comes later.
 #include "core/fold/common_glsl.h"
 #include "core/fold/over.glsl"
 
@@ -12,9 +12,6 @@ layout(binding = COPEEL_TEXTURE_FOLD_TABLE + 1) uniform usamplerBuffer overRange
 layout(binding = COPEEL_TEXTURE_FOLD_TABLE + 2) uniform samplerBuffer overShades;           // per plane class
 
 #define OVER_STATE_WORDS 22u
-
-// Three texels a pixel: llvmpipe writes four words at once in the time of two.
-layout(std430, binding = COPEEL_BUFFER_FOLD_RESULT) writeonly buffer OverResults { uvec4 overResults[]; };
 
 uint overSide;
 OverState overMain, overRest;    // the side so far; of the open group what came from its other end
@@ -115,12 +112,12 @@ bool foldCloseGroup(uint key) {
 
 void overWrite(OverState whole, uint nearest, uint layers, uint largest) {
   uint at = pixelIndex() * 3u;
-  overResults[at] = uvec4(unpackDouble2x32(whole.color.x), unpackDouble2x32(whole.color.y));
-  overResults[at + 1u] = uvec4(unpackDouble2x32(whole.color.z), unpackDouble2x32(whole.transmittance));
-  overResults[at + 2u] = uvec4(nearest, layers, largest, 0u);
+  foldResults[at] = uvec4(unpackDouble2x32(whole.color.x), unpackDouble2x32(whole.color.y));
+  foldResults[at + 1u] = uvec4(unpackDouble2x32(whole.color.z), unpackDouble2x32(whole.transmittance));
+  foldResults[at + 2u] = uvec4(nearest, layers, largest, 0u);
 }
 
-void foldNothing() { overResults[pixelIndex() * 3u + 2u] = uvec4(0u); }
+void foldNothing() { foldResults[pixelIndex() * 3u + 2u] = uvec4(0u); }
 
 void foldFinishFront() { overWrite(overMain, overNearest, overLayers, overLargest); }
 

@@ -18,7 +18,7 @@ layout(std430, binding = COPEEL_BUFFER_METHOD + 3) coherent buffer Longest { uin
 #error a pixel has at most five lists
 #endif
 
-// The heads of one list lie together: surfaces are in few buckets, and the others' stay out of the caches.
+// The heads of one list lie together: surfaces are in few buckets, and while fragments are gathered the others' heads stay out of the caches.
 uint headOf(uint list) { return list * uint(size.x * size.y) + pixelIndex(); }
 
 #if defined(PASS_GATHER)
@@ -75,9 +75,13 @@ void main() {
     if (node == 0u) node = later.x, later = uvec4(later.yzw, 0u);
   }
   if (node != 0u) {
+#ifdef MORE_ROOM_FOLLOWS
+    atomicMax(longest, uint(SORT_SHORT) + 1u);
+#else
     uint length = 0u;
     for (uint list = 0u; list < uint(LISTS); ++list) length += lengthOf(list);
     atomicMax(longest, length);
+#endif
     heads[headOf(0u)] |= LIST_LONG;
     return;
   }

@@ -1,5 +1,5 @@
 // Sorts few fragments of a pixel and delivers them: beginShort(), putShort() for each, deliverShort(). The file that includes this defines SORT_SHORT, how many
-// there are at most (5 or more), and SORT_DISTINCT where of each depth one fragment is to be delivered.
+// there are at most (5 or more), and SORT_DISTINCT where of each depth one fragment is to be delivered. Keys are less than COPEEL_KEY_NONE.
 //
 // The four nearest are kept in registers, in order from the beginning: most pixels hold no more, and an array that is indexed lies in memory (llvmpipe
 // clears it, too). What they push out goes to arrays, sorted at the end by Shell's sort: short code, and an insertion sort where there are least.

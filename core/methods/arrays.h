@@ -12,7 +12,7 @@ namespace copeel {
 // SORT_SHORT of core/gl/sort_short.glsl, fragments: for pixels that have few, whose passes are faster for it, and the most there may be. What is longer has
 // states (Frame::makeStates).
 inline constexpr std::uint32_t kFewFragments = 32, kShortArray = 128;
-gl::Defines shortDefine(std::size_t most);   // of the two, the one for pixels of `most` fragments
+gl::Defines shortDefine(std::size_t most);   // of the two, the one for pixels of at most so many
 
 // The method's `file` calls deliverArray(first, count) for each pixel in the passes RESOLVE, BEGIN, HEAP, POP and FINISH; `fragments` holds its array, no pixel
 // has more than `most`. Uses buffer slot 7. Passes over the pixels: 1, and 4 + 3n/2048 more where a pixel has n > kShortArray fragments.

@@ -13,24 +13,22 @@ namespace {
 constexpr std::size_t kNodeBytes = 12;
 constexpr std::size_t kFirstNodesPerPixel = 4;
 constexpr std::size_t kCounterWords = 16;       // from one counter to the next: a cache line
-constexpr std::size_t kDeepPerPixel = 16;       // fragments: with so many, most pixels that have any have more than few
 constexpr std::uint32_t kMost = 20'000;         // LIST_MOST
 
-// Delivers pixels of few fragments, then, where there are some, those of up to kShortArray. Returns the fragments of the deepest that is left, 0: none is.
+// Delivers pixels of few fragments, then, where there are some, those of up to kShortArray. `deep`: the first would be in vain. Returns the fragments of the
+// deepest that is left, 0: none is.
 std::uint32_t deliverShortLists(gl::Frame& frame, const char* file, const gl::Defines& deliver, bool deep) {
   const gl::Buffer& putOff = frame.buffer("longest", 3, 4);
-  gl::Defines defines = deliver;
-  for (const std::uint32_t most : {kFewFragments, kShortArray}) {
-    if (deep && most == kFewFragments) continue;
+  const auto pass = [&](std::uint32_t most, const char* more) {
+    gl::Defines defines = shortDefine(most);
+    defines.insert(defines.end(), deliver.begin(), deliver.end());
+    if (more) defines.emplace_back(more, "1");
     putOff.clear(0);
-    gl::Defines all = shortDefine(most);
-    all.insert(all.end(), defines.begin(), defines.end());
-    frame.drawPixels(frame.pixelProgram(file, "RESOLVE", all));
-    const std::uint32_t longest = putOff.read<std::uint32_t>(1)[0];
-    if (longest == 0 || most == kShortArray) return longest;
-    defines.emplace_back("PUT_OFF_BEFORE", "1");
-  }
-  return 0;
+    frame.drawPixels(frame.pixelProgram(file, "RESOLVE", defines));
+    return putOff.read<std::uint32_t>(1)[0];
+  };
+  if (!deep && pass(kFewFragments, "MORE_ROOM_FOLLOWS") == 0) return 0;
+  return pass(kShortArray, deep ? nullptr : "PUT_OFF_BEFORE");
 }
 
 void deliverLists(gl::Frame& frame, const char* file, const gl::Defines& defines, bool deep) {
@@ -85,7 +83,7 @@ MethodCounts drawLists(gl::Frame& frame, const MethodOptions& options, const cha
   if (counts.overflow > 0 && options.allOrNothing) return counts;
   frame.texels(heads, COPEEL_TEXTURE_METHOD, GL_R32UI);
   frame.texels(frame.buffer("nodes", 1, capacity * placeBytes), COPEEL_TEXTURE_METHOD + 1, GL_RGB32UI);
-  deliverLists(frame, file, defines, fragments >= kDeepPerPixel * frame.pixelCount());
+  deliverLists(frame, file, defines, fragments > kFewFragments * frame.pixelCount());
   return counts;
 }
 

@@ -16,7 +16,7 @@
 namespace copeel {
 namespace {
 
-constexpr std::uint32_t kMostBuckets = 128;   // SORT_SHORT
+constexpr std::uint32_t kMostBuckets = 128;   // an array of as many lies in each invocation
 
 }  // namespace
 

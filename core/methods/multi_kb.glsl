@@ -27,7 +27,7 @@ void main() {
 
 #else
 
-#define SORT_SHORT (K > 8 ? K : 8)
+#define SORT_SHORT (K > 5 ? K : 5)
 #define SORT_DISTINCT   // two fragments of one depth, written at once, are a hazard that the equality test could not see
 #include "core/gl/sort_short.glsl"
 
