@@ -3,7 +3,7 @@
 namespace copeel::oit {
 namespace {
 
-constexpr std::uint32_t kStateWords = 22;   // of core/gl/fold_over.glsl
+constexpr std::uint32_t kStateWords = 24;   // of core/gl/fold_over.glsl
 
 }  // namespace
 
@@ -15,7 +15,7 @@ gl::FoldSource OverBuffers::upload(const Scene& scene, const fold::OverTables& t
   ranges_ = gl::Buffer(shifted);
   shades_ = gl::Buffer(tables.shades);
   gl::FoldSource fold;
-  fold.defines = {{"FOLD", "core/gl/fold_over.glsl"}, {"FOLD_MAY_END", mayEnd ? "1" : "0"}, {"FOLD_RESULT", "uvec4"}};
+  fold.defines = {{"FOLD", "core/gl/fold_over.glsl"}, {"FOLD_MAY_END", mayEnd ? "1" : "0"}, {"FOLD_WORDS", "uvec4"}};
   fold.stateWords = kStateWords;
   fold.resultWords = kOverResultWords;
   fold.tables = {{&bases_, GL_RGBA32F}, {&ranges_, GL_RG32UI}, {&shades_, GL_R32F}};

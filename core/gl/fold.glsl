@@ -15,14 +15,14 @@
 //   void foldNothing()                the result of a pixel without fragments: its counts, of which the application sees that the rest is not to be read
 //
 // A front side may be given all its groups in one invocation (A-buffers) or over many passes. A group is never split between the sides.
-layout(std430, binding = COPEEL_BUFFER_FOLD_STATE) buffer FoldStates { uint foldStates[]; };
-#ifndef FOLD_RESULT
-#define FOLD_RESULT uint   // what a pixel's result is an array of
+#ifndef FOLD_WORDS
+#define FOLD_WORDS uint   // what states and results are arrays of: a fold that says uvec4 has them read and written four words at a time
 #endif
-layout(std430, binding = COPEEL_BUFFER_FOLD_RESULT) writeonly buffer FoldResults { FOLD_RESULT foldResults[]; };
+layout(std430, binding = COPEEL_BUFFER_FOLD_STATE) buffer FoldStates { FOLD_WORDS foldStates[]; };
+layout(std430, binding = COPEEL_BUFFER_FOLD_RESULT) writeonly buffer FoldResults { FOLD_WORDS foldResults[]; };
 
-// Where the state of a side starts, words per side given.
-uint foldStateAt(uint side, uint words) { return (pixelIndex() * 2u + side) * words; }
+// Where the state of a side starts, its length given; both in FOLD_WORDS.
+uint foldStateAt(uint side, uint length) { return (pixelIndex() * 2u + side) * length; }
 
 #include FOLD
 

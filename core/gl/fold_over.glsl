@@ -1,7 +1,7 @@
 // Transparency on the device: core/fold/over.glsl behind the interface of core/gl/fold.glsl. Within a group the later primitive lies in front.
 //
 // Result words: colour (three doubles, premultiplied), transmittance (a double), id + 1 of the nearest primitive that is seen (0: none), fragments,
-// fragments of the largest group, 0: three texels (the define FOLD_RESULT is uvec4). Where there are none, the colour may be anything. The background comes later.
+// fragments of the largest group, 0: three texels (FOLD_WORDS is uvec4). Where there are none, the colour may be anything. The background comes later.
 #include "core/fold/common_glsl.h"
 #include "core/fold/over.glsl"
 
@@ -11,7 +11,7 @@ layout(binding = COPEEL_TEXTURE_FOLD_TABLE) uniform samplerBuffer overBases;
 layout(binding = COPEEL_TEXTURE_FOLD_TABLE + 1) uniform usamplerBuffer overRanges;          // per object: base = x + y · primitive
 layout(binding = COPEEL_TEXTURE_FOLD_TABLE + 2) uniform samplerBuffer overShades;           // per plane class
 
-#define OVER_STATE_WORDS 22u
+#define OVER_STATE_TEXELS 6u
 
 uint overSide;
 OverState overMain, overRest;    // the side so far; of the open group what came from its other end
@@ -19,45 +19,31 @@ uint overNearest, overGroupFront, overGroupBehind;   // primitives that are seen
 uint overLayers, overLargest, overOpen;
 
 void overPut(uint at, OverState state) {
-  for (uint i = 0u; i < 4u; ++i) {
-    uvec2 bits = unpackDouble2x32(i < 3u ? state.color[i] : state.transmittance);
-    foldStates[at + 2u * i] = bits.x;
-    foldStates[at + 2u * i + 1u] = bits.y;
-  }
+  foldStates[at] = uvec4(unpackDouble2x32(state.color.x), unpackDouble2x32(state.color.y));
+  foldStates[at + 1u] = uvec4(unpackDouble2x32(state.color.z), unpackDouble2x32(state.transmittance));
 }
 
-double overDouble(uint at) { return packDouble2x32(uvec2(foldStates[at], foldStates[at + 1u])); }
-
 OverState overTake(uint at) {
-  OverState state;
-  state.color = dvec3(overDouble(at), overDouble(at + 2u), overDouble(at + 4u));
-  state.transmittance = overDouble(at + 6u);
-  return state;
+  uvec4 first = foldStates[at], second = foldStates[at + 1u];
+  return OverState(dvec3(packDouble2x32(first.xy), packDouble2x32(first.zw), packDouble2x32(second.xy)), packDouble2x32(second.zw));
 }
 
 void foldStore(uint side) {
-  uint at = foldStateAt(side, OVER_STATE_WORDS);
+  uint at = foldStateAt(side, OVER_STATE_TEXELS);
   overPut(at, overMain);
-  overPut(at + 8u, overRest);
-  foldStates[at + 16u] = overNearest;
-  foldStates[at + 17u] = overGroupFront;
-  foldStates[at + 18u] = overGroupBehind;
-  foldStates[at + 19u] = overLayers;
-  foldStates[at + 20u] = overLargest;
-  foldStates[at + 21u] = overOpen;
+  overPut(at + 2u, overRest);
+  foldStates[at + 4u] = uvec4(overNearest, overGroupFront, overGroupBehind, overLayers);
+  foldStates[at + 5u] = uvec4(overLargest, overOpen, 0u, 0u);
 }
 
 void foldLoad(uint side) {
-  uint at = foldStateAt(side, OVER_STATE_WORDS);
+  uint at = foldStateAt(side, OVER_STATE_TEXELS);
+  uvec4 seen = foldStates[at + 4u], counts = foldStates[at + 5u];
   overSide = side;
   overMain = overTake(at);
-  overRest = overTake(at + 8u);
-  overNearest = foldStates[at + 16u];
-  overGroupFront = foldStates[at + 17u];
-  overGroupBehind = foldStates[at + 18u];
-  overLayers = foldStates[at + 19u];
-  overLargest = foldStates[at + 20u];
-  overOpen = foldStates[at + 21u];
+  overRest = overTake(at + 2u);
+  overNearest = seen.x, overGroupFront = seen.y, overGroupBehind = seen.z, overLayers = seen.w;
+  overLargest = counts.x, overOpen = counts.y;
 }
 
 void foldReset(uint side) {

@@ -129,7 +129,7 @@ class Frame {
 
   void begin();   // of a method: binds what all passes read, counts anew
   // Sets the fold's states to their beginning, once a frame: for methods that come to a pixel in several passes, before their first one. Those that
-  // deliver a pixel in one invocation spare the memory its states take (176 bytes for transparency), unless the fold has no others.
+  // deliver a pixel in one invocation spare the memory its states take (192 bytes for transparency), unless the fold has no others.
   void beginStates();
   bool usesStates() const { return usesStates_; }
   // What a method's resolve pass is given where it may spare them: RESOLVE then writes results itself.

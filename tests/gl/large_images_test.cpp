@@ -34,7 +34,7 @@ TEST(GlLargeImages, countEveryFragment) {
   }
 }
 
-// 4096 x 4096: states would take 2.9 GB, results take 0.8. Methods that deliver a pixel in one invocation have no states, the others say so.
+// 4096 x 4096: states would take 3.2 GB, results take 0.8. Methods that deliver a pixel in one invocation have no states, the others say so.
 TEST(GlLargeImages, whoseStatesAreTooManyAreForOnePass) {
   const MeshPointer ball = share(sphere(1, 17, 9));
   const std::vector<oit::Part> parts{{ball, {255, 0, 0, 0.5f}, {}, glm::dmat4(1.0)}, {ball, {0, 0, 255, 0.5f}, {}, glm::dmat4(1.0)}};
