@@ -17,6 +17,7 @@ namespace {
 constexpr const char* kNoTime = "left out: no time is left";
 // In the first frame of a turn a method finds the caches and the page tables as others left them, some of whom have buffers in common with it.
 constexpr int kFramesOfATurn = 2;
+constexpr std::size_t kLeastFrames = 4;    // also of those that take long: a first one may be of a second, for the system's pages that buffers are made of
 constexpr double kFramesToWarm = 4;        // two frames, the counts, which are another one, and one that is timed
 constexpr double kPassesThatTell = 3;      // a method of so many tells the time of a pass; of fewer, other work takes as long
 
@@ -86,7 +87,8 @@ void Turns::warm(std::vector<Entry*> entries) {
 void Turns::time() {
   std::vector<std::vector<double>> times(runs_.size());
   const auto mayDraw = [&](std::size_t i) {
-    if (!entries_[i]->measured() || std::accumulate(times[i].begin(), times[i].end(), 0.0) > kEnoughMs) return false;
+    if (!entries_[i]->measured()) return false;
+    if (times[i].size() >= kLeastFrames && std::accumulate(times[i].begin(), times[i].end(), 0.0) > kEnoughMs) return false;
     // The first frame was paid for when the method was let in.
     return times[i].empty() || leastMs_[i] <= deadline_.leftMs();
   };

@@ -129,6 +129,7 @@ void Frame::makeTargets() {
   buffers_.clear();
   targets_.clear();
   look.reset();
+  oneMemory = false;
   writtenBox_ = whole();
 }
 

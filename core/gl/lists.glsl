@@ -1,5 +1,5 @@
-// Linked lists of fragments, LISTS of them a pixel one behind the other in depth, each with a node memory of its own: gathered by gatherIntoList(), resolved by the
-// passes that drawLists() draws (core/methods/lists.h).
+// Linked lists of fragments, LISTS of them a pixel one behind the other in depth, each with PARTS node memories of its own: gathered by gatherIntoList(), resolved
+// by the passes that drawLists() draws (core/methods/lists.h).
 //
 // Pixels of few fragments are sorted in the invocation (sort_short.glsl). The others wait, for a pass that has room for more, then for passes that each merge
 // one level, as drivers end shaders that loop for too long (sort_array.glsl); a level of LIST_MOST nodes takes 3 turns a node.
@@ -25,10 +25,21 @@ uint headOf(uint list) { return list * uint(size.x * size.y) + pixelIndex(); }
 
 uniform uint capacity;   // nodes of a memory
 
+// Neighbouring tiles of 64 x 64 pixels have different memories: a core of llvmpipe draws a tile at a time, and cores that fill one memory wait for each other's
+// counter and cache lines.
+uint memoryOf(uint list) {
+#if PARTS > 1
+  uvec2 tile = uvec2(gl_FragCoord.xy) >> 6;
+  return list * uint(PARTS) + (tile.x + 3u * tile.y) % uint(PARTS);
+#else
+  return list;
+#endif
+}
+
 void gatherIntoList(uint list, uint key) {
-  uint node = atomicAdd(wanted[list * 16u], 1u);
+  uint memory = memoryOf(list), node = atomicAdd(wanted[memory * 16u], 1u);
   if (node >= capacity) return;
-  node += list * capacity;
+  node += memory * capacity;
   nodes[node] = Node(atomicExchange(heads[headOf(list)], node + 1u), key, fragmentId());
 }
 

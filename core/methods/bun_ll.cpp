@@ -17,7 +17,7 @@ constexpr std::uint32_t kBuckets = 5;
 MethodCounts drawBunLl(gl::Frame& frame, const MethodOptions& options) {
   MethodOptions all = options;
   all.occupancy = false;
-  return drawLists(frame, all, "core/methods/bun_ll.glsl", kBuckets);
+  return drawLists(frame, all, "core/methods/bun_ll.glsl", kBuckets, 1);
 }
 
 }  // namespace copeel

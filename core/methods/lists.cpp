@@ -47,17 +47,18 @@ void deliverLists(gl::Frame& frame, const char* file, const gl::Defines& defines
 
 }  // namespace
 
-MethodCounts drawLists(gl::Frame& frame, const MethodOptions& options, const char* file, std::uint32_t lists) {
-  const gl::Defines defines = {{"LISTS", fmt::format("{}", lists)}};
+MethodCounts drawLists(gl::Frame& frame, const MethodOptions& options, const char* file, std::uint32_t lists, std::uint32_t parts) {
+  const gl::Defines defines = {{"LISTS", fmt::format("{}", lists)}, {"PARTS", fmt::format("{}", parts)}};
+  const std::uint32_t memories = lists * parts;
   gl::Defines gatherDefines = drawOccupancy(frame, options);
   gatherDefines.insert(gatherDefines.end(), defines.begin(), defines.end());
   const gl::Program& gather = frame.geometryProgram(file, "GATHER", gatherDefines);
   const gl::Buffer& heads = frame.pixelWords("heads", 0, lists);
-  const gl::Buffer& counters = frame.buffer("wanted", 2, lists * kCounterWords * 4);
+  const gl::Buffer& counters = frame.buffer("wanted", 2, memories * kCounterWords * 4);
   // One node of each memory is one place.
-  const std::size_t placeBytes = kNodeBytes * lists;
+  const std::size_t placeBytes = kNodeBytes * memories;
   const std::size_t most = roomFor(options.memoryBytes, heads.bytes() + counters.bytes() + 4, kNodeBytes) / placeBytes;
-  const std::size_t start = (frame.pixelCount() * kFirstNodesPerPixel + lists - 1) / lists;
+  const std::size_t start = (frame.pixelCount() * kFirstNodesPerPixel + memories - 1) / memories;
   std::size_t capacity = std::min(std::max(frame.keptBytes("nodes") / placeBytes, start), most);
   MethodCounts counts{.iterations = 1};
   std::size_t fragments = 0;
@@ -67,12 +68,12 @@ MethodCounts drawLists(gl::Frame& frame, const MethodOptions& options, const cha
     counters.clear(0);
     gather.set("capacity", static_cast<GLuint>(capacity));
     frame.drawGeometry(gather);
-    const std::vector<std::uint32_t> words = counters.read<std::uint32_t>(lists * kCounterWords);
+    const std::vector<std::uint32_t> words = counters.read<std::uint32_t>(memories * kCounterWords);
     std::size_t wanted = 0;
     fragments = 0;
     counts.overflow = 0;
-    for (std::size_t list = 0; list < lists; ++list) {
-      const std::size_t nodes = words[list * kCounterWords];
+    for (std::size_t memory = 0; memory < memories; ++memory) {
+      const std::size_t nodes = words[memory * kCounterWords];
       wanted = std::max(wanted, nodes);
       fragments += nodes;
       counts.overflow += nodes > capacity ? nodes - capacity : 0;

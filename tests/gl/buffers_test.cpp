@@ -175,6 +175,23 @@ TEST(GlBuffers, stacksOfAllHeightsSideBySide) {
   }
 }
 
+// Twenty balls within a tile or two: one of eight memories has to hold most, and --memory that is enough for all nodes in one memory is not for these.
+TEST(GlBuffers, nodesOfALargePictureLieInEightMemoriesWhereTheyFit) {
+  const GlScene scene{"balls", copiesOf(share(sphere(1, 17, 9)), 20), lookAt({3, 2, 4}, {0, 0, 0}, 512, 300, 0.012)};
+  Rendered rendered(scene, 40);
+  const std::size_t pixels = rendered.pixelCount(), fragments = rendered.fragments();
+  ASSERT_GT(fragments, 20'000u);
+  const GlStacks arrays = rendered.stacksOf("fab");
+  EXPECT_TRUE(arrays.stacks.pixels == rendered.pixels());
+  const gl::FrameCounts inEight = rendered.stacksOf("ll").counts;
+  EXPECT_EQ(inEight.methodBytes, pixels * 4 + 96 * ((4 * pixels + 7) / 8) + 516);
+  EXPECT_EQ(inEight.passes, 1u);
+  const GlStacks inOne = Rendered(scene, 40).stacksOf("ll", {.memoryBytes = pixels * 4 + fragments * 12 + 1000});
+  EXPECT_TRUE(inOne.stacks.pixels == rendered.pixels());
+  EXPECT_EQ(inOne.counts.method.overflow, 0u);
+  EXPECT_LE(inOne.counts.methodBytes, pixels * 4 + fragments * 12 + 1000);
+}
+
 // One invocation walks the five lists of a pixel: together they are held to what drivers' loops allow.
 TEST(GlBuffers, listsOfBucketsAreCountedTogether) {
   const auto stackOf = [](std::uint32_t count) {
