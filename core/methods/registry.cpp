@@ -53,7 +53,7 @@ const std::vector<MethodInfo>& methods() {
       {"fab", "A-buffer in fixed-size arrays", "Liu 2010 (FreePipe), Crassin 2010", "gl",
        "1, 2 where it grows", "4 + 8 max(K, N) a pixel", "2 D + 2", "1", true, drawFab},
       {"ll", "A-buffer in per-pixel linked lists", "Yang 2010", "gl",
-       "1, 2 where it grows", "4 a pixel + 12 max(4 pixels, N) + 68", "3 N + 3", "1", true, drawLl, "+occupancy"},
+       "1, 2 where it grows", "4 a pixel + 12 max(4 pixels, N) + 68; above 2^17 pixels 96 times the fullest of 8 memories + 516", "3 N + 3", "1", true, drawLl, "+occupancy"},
       {"sb", "S-buffer: count, prefix sum, fill", "Vasilakis, Fudos 2012", "gl", "2", "8 a pixel + 8 a fragment + 260", "2 N + 3", "1", true, drawSb},
       {"kb", "k-buffer", "Bavoil 2007", "gl", "1", "8 K + 8 a pixel", "2 K + 2", "min(K, N) / N at best", false, drawKb, "+occupancy"},
       {"k-plus", "k+-buffer: spin lock or interlock, the K nearest", "Vasilakis, Fudos 2014", "gl",
