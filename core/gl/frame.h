@@ -45,8 +45,8 @@ struct Look {
   bool wasTooLittle = false;        // a method met more: the next look is at all pixels
 };
 
-// Of states and results, which are per pixel: a model of a thousand leaves is one for the cpu back end.
-inline constexpr std::uint64_t kMostFoldBytes = std::uint64_t{2} << 30;
+// Of states and results together, which are per pixel: a model of a thousand leaves is one for the cpu back end.
+inline constexpr std::uint64_t kMostFoldBytes = std::uint64_t{9} << 28;
 
 class Frame {
  public:
