@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kSmallImage = 1 << 16;                       // pixels
 constexpr int kStep = 4;                                           // pixels of a larger one from one that is counted to the next
-constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 30;       // bytes, without --memory, where hybrid can take over
+constexpr std::uint64_t kUnlimited = std::uint64_t{2} << 30;       // bytes, without --memory, where hybrid can take over
 constexpr std::uint64_t kEndless = std::uint64_t{1} << 62;         // where it cannot
 constexpr std::uint64_t kDeliveryBytes = 8;                        // beside the buffers that fab and sb hold to --memory
 
