@@ -14,8 +14,8 @@
 #include <fmt/ranges.h>
 
 #include "apps/bench/scenes.h"
-#include "apps/copeel/heap.h"
 #include "apps/command/parse_values.h"
+#include "apps/copeel/heap.h"
 #include "apps/oit/over_buffers.h"
 #include "bench/plain_list.h"
 #include "bench/table.h"

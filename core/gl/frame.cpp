@@ -129,7 +129,7 @@ void Frame::makeTargets() {
   buffers_.clear();
   targets_.clear();
   look.reset();
-  oneMemory = false;
+  nodesInOneMemory = false;
   writtenBox_ = whole();
 }
 

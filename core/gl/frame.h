@@ -81,7 +81,7 @@ class Frame {
 
   // Of an earlier frame of this size, for the method that keeps it.
   std::optional<Look> look;
-  bool oneMemory = false;   // ll.cpp: eight memories did not fit. Forgotten with the size of the picture, as the look is
+  bool nodesInOneMemory = false;   // ll.cpp: eight memories did not fit. Forgotten with the size of the picture, as the look is
 
   // A colour target of the method's for geometry passes: attachments 0 … count-1 are written, pixel passes read them as textures of the same units.
   void target(const std::string& name, int attachment, GLenum format);

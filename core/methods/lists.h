@@ -7,7 +7,8 @@
 namespace copeel {
 
 // Gathers into `lists` lists a pixel, each with `parts` memories, by pass GATHER of `file`, grows all to what the fullest asked for and repeats while it is too small,
-// and delivers the lists, front one first. Bytes: 4 lists a pixel + 12 a node + 64 a memory + 4. Throws Error{Machine} for a list of more than 20,000 fragments (core/gl/lists.glsl).
+// and delivers the lists, front one first. Bytes: 4 lists a pixel + 12 a node + 64 a memory + 4. Throws Error{Machine} for a list of more than 20,000 fragments
+// (core/gl/lists.glsl).
 MethodCounts drawLists(gl::Frame& frame, const MethodOptions& options, const char* file, std::uint32_t lists, std::uint32_t parts);
 
 }  // namespace copeel
